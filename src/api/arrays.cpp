@@ -75,7 +75,7 @@ bool lies_as(const ArrayView& array) {
          reinterpret_cast<std::uintptr_t>(array.data) % alignof(Row) == 0;
 }
 
-/// The rows, in `owned` where they had to be converted.
+/// Returns the rows, stored in `owned` if they had to be converted.
 template <class Row>
 std::span<const Row> taken(const ArrayView& array, std::vector<Row>& owned, const char* what) {
   std::vector<Row>().swap(owned);
@@ -93,7 +93,7 @@ std::span<const int> taken_markers(const ArrayView& array, std::vector<int>& own
   if (array.rows == 0) return {};
   if (array.data == nullptr) throw std::invalid_argument("an array of rows without memory");
   ArrayView rows = array;
-  rows.column_stride = sizeof(int);  // there is one column
+  rows.column_stride = sizeof(int);  // a single column may come with any stride
   if (lies_as<Row>(rows)) return {static_cast<const int*>(array.data), array.rows};
   std::vector<Row> converted_rows(array.rows);
   convert_any(array, converted_rows, "marker");

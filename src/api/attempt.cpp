@@ -78,7 +78,7 @@ double mesh_once(const Attempt& attempt, Result& result) {
 namespace {
 
 std::string message_of(const std::vector<Defect>& defects) {
-  // The last rules are not of the surface alone, but of what is to be kept of it.
+  // The last rules concern not the surface alone, but what is kept of it.
   switch (defects[0].kind) {
     case DefectKind::encloses_nothing:
       return "there is nothing to fill";

@@ -1,4 +1,4 @@
-// One attempt at a mesh: all steps after the input was examined (docs/architecture.md).
+// One attempt at a mesh: all steps after the input was validated (docs/architecture.md).
 #pragma once
 
 #include <optional>
@@ -9,24 +9,25 @@
 
 namespace holdfast {
 
-/// The result of recovery: the regions, in a mesh without added points except those that no way removes.
+/// The result of recovery: the regions, in a mesh whose only added points are those that could not be
+/// removed.
 struct Recovered {
   BoxMesh box;
   Division division;
 };
 
-/// The first half: a mesh that has every facet and segment (paper §3 to §6). `result` comes with the outcome
-/// `done` and the report so far, to which this adds its own. Nothing if the complex is refused.
+/// The first half: a mesh that has every facet and segment (paper §3 to §6). On entry `result` has the
+/// outcome `done` and the report so far. Returns nullopt if the complex is refused.
 [[nodiscard]] std::optional<Recovered> recover(const Attempt& attempt, Result& result);
 
-/// The other half: points for the sizes, better elements (paper §8), and the mesh as it is delivered. Returns
-/// the worst Q of the same attempt without field points; 0 where it was not asked for.
+/// The second half: points for the sizes, better elements (paper §8), and the delivered mesh. Returns the
+/// worst Q of the same attempt without field points, or 0 if it was not computed.
 double fill(const Attempt& attempt, Recovered& recovered, Result& result);
 
 /// Both halves.
 double mesh_once(const Attempt& attempt, Result& result);
 
-/// For a result whose outcome is `invalid_input`: its defects, and how many.
+/// Sets a result with the outcome `invalid_input`, its defects and their number.
 void refuse(Result& result, std::vector<Defect> defects);
 
 }  // namespace holdfast

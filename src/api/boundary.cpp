@@ -15,8 +15,8 @@
 namespace holdfast {
 namespace {
 
-constexpr double kHiddenMargin = 0.5;    // of the box that is cut away again, in extents of the complex
-constexpr std::size_t kTetsAVertex = 7;  // of a Delaunay mesh, for the reservation of memory
+constexpr double kHiddenMargin = 0.5;    // of the box that is removed again, in extents of the complex
+constexpr std::size_t kTetsAVertex = 7;  // of a Delaunay mesh, to reserve memory
 
 std::vector<Vertex> points_inside(const Attempt& attempt, const BoxMesh& box, const Division& division) {
   const TetMesh& mesh = box.mesh;

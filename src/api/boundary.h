@@ -1,5 +1,5 @@
-// The steps of a call from a valid complex to a mesh of its regions (paper §3 to §6): a Delaunay mesh in a
-// box, the facets and segments in it, and which of its tetrahedra are inside.
+// The steps from a valid complex to a mesh of its regions (paper §3 to §6): a Delaunay mesh in a box, its
+// recovered facets and segments, and which of its tetrahedra are inside.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace holdfast {
 
-/// What the steps of one attempt are given.
+/// The input of the steps of one attempt.
 struct Attempt {
   Input& input;
   const Options& options;
@@ -43,7 +43,7 @@ struct BoxMesh {
   }
 };
 
-/// Into which regions the facets divide a mesh, and which of them are kept.
+/// The regions into which the facets divide a mesh, and which of them are kept.
 struct Division {
   Regions regions;
   Kept kept;
@@ -54,24 +54,24 @@ struct Division {
   [[nodiscard]] std::vector<Tet> tets(const TetMesh& mesh) const;
 };
 
-/// The Delaunay tetrahedra of the vertices and of a box round them (paper §3).
+/// The Delaunay tetrahedra of the vertices and the corners of a box around them (paper §3).
 [[nodiscard]] BoxMesh delaunay_in_box(const Attempt& attempt);
 
 /// Recovers facets and segments by flips alone (paper §4). Some may still be missing.
 void recover_by_flips(const Attempt& attempt, BoxMesh& box);
 
-/// Recovers all that is missing with Steiner points (paper §5, §6). What stands does not change if the points
-/// stay on the constraints: these are in pieces then.
+/// Recovers everything missing with Steiner points (paper §5, §6). Constraints that exist do not change, but
+/// if the points stay, the recovered ones are in pieces.
 EnforceStats enforce_missing(const Attempt& attempt, BoxMesh& box);
 
-/// Finds the regions and those to be kept. Only `kept.defects` counts if there are any.
+/// Finds the regions and those to keep. If `kept.defects` is not empty, nothing else counts.
 [[nodiscard]] Division divide(const Attempt& attempt, BoxMesh& box);
 
-/// Reports which regions were chosen, and warns of what may not have been meant.
+/// Reports which regions were chosen, and warns of a choice that may be unintended.
 void report_choice(const Attempt& attempt, BoxMesh& box, const Division& division, Result& result);
 
-/// Takes Steiner points out of the kept regions (paper §6.4). Returns how many are left there. Points outside
-/// go with their tetrahedra.
+/// Removes Steiner points from the kept regions (paper §6.4). Returns how many are left there. Points outside
+/// disappear with their tetrahedra.
 std::size_t suppress_points(const Attempt& attempt, BoxMesh& box, Division& division);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// The public functions without stages: limits and threads round the work of the lower layers.
+// The public functions that run no stages: limits and threads around the work of the lower layers.
 #include <algorithm>
 #include <cmath>
 #include <new>

@@ -1,4 +1,4 @@
-// The public functions of holdfast/check_repair.h: limits round the work of src/check_repair.
+// The public functions of holdfast/check_repair.h: limits around the work of src/check_repair.
 #include "holdfast/check_repair.h"
 
 #include <new>

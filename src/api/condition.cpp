@@ -37,15 +37,15 @@ struct Element {
                 careful::normal(p[0], p[3], p[1]), careful::normal(p[0], p[1], p[2])},
         six_volumes(std::abs(careful::six_volumes(p[0], p[1], p[2], p[3], normals[3]))) {}
 
-  // The sum of the eigenvalues: the largest is at least a third of it.
+  // The sum of the eigenvalues; at most three are not 0, so the largest is at least a third of it.
   [[nodiscard]] double trace() const {
     double sum = 0;
     for (const Vector& n : normals) sum += dot(n, n);
     return sum > 0 ? sum / (6 * six_volumes) : 0;
   }
 
-  // The eigenvalues that are not 0 are those of the 3 x 3 matrix sum of n n^T / (6 * six volumes): the roots
-  // of a cubic, by cosines (Smith 1961).
+  // The nonzero eigenvalues are those of the 3 x 3 matrix sum of n n^T / (6 * six volumes): the roots of a
+  // cubic, by cosines (Smith 1961).
   [[nodiscard]] double largest_eigenvalue() const {
     const double all = trace();
     if (!(all > 0 && all < std::numeric_limits<double>::infinity())) return all;
@@ -103,7 +103,7 @@ class Measuring {
       found_.element_eigenvalue = std::max(found_.element_eigenvalue, element.largest_eigenvalue());
   }
 
-  // Traces show which vertices may have the largest sum; eigenvalues are computed only there.
+  // The sums of traces show at which vertices the bound may be largest; eigenvalues are computed only there.
   void bound_eigenvalue() {
     std::vector<double> sums(volume_.vertices.size(), 0);
     for (std::size_t t = 0; t < traces_.size(); ++t)

@@ -17,7 +17,7 @@
 namespace holdfast {
 namespace {
 
-/// The triangles of the hull, counterclockwise from outside; each names the first vertex of a place.
+/// The triangles of the hull, counterclockwise from outside, by the first vertex of each place.
 std::vector<Triangle> hull_of(const std::vector<Point>& vertices, const Limits& limits) {
   DelaunayOptions options;
   static_cast<Limits&>(options) = limits;
@@ -63,8 +63,8 @@ class HullFaces {
   std::vector<std::vector<Triangle>> faces_;
 };
 
-/// Two coordinates in which a triangle turns left. Projecting them keeps every incidence in the triangle's
-/// plane.
+/// Two coordinates in which a triangle is counterclockwise. Projection onto them keeps every incidence in the
+/// triangle's plane.
 std::array<std::size_t, 2> projection_of(const std::vector<Point>& vertices, const Triangle& t) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
@@ -113,7 +113,7 @@ void require_vertices(const char* what, const std::vector<Entity>& entities, std
                                     ", of " + std::to_string(vertices));
 }
 
-/// What a surface has already, by the first vertices of its places.
+/// The facets and sides of a surface, by the first vertex of each place.
 class Present {
  public:
   explicit Present(const Surface& surface) : sides_at_(surface.vertices.size()) {
@@ -133,7 +133,7 @@ class Present {
   [[nodiscard]] bool has(const Triangle& t) const {
     return std::binary_search(facets_.begin(), facets_.end(), ascending(t));
   }
-  /// The higher ends of sides, by the lower one.
+  /// By the lower end of each side, its higher ends.
   [[nodiscard]] const std::vector<std::vector<Index>>& sides_at() const { return sides_at_; }
 
  private:

@@ -6,9 +6,10 @@
 namespace holdfast {
 namespace {
 
-using Costs = std::array<double, 10>;  // by step, in parts of what a call without field points takes
+using Costs = std::array<double, 10>;  // by step, relative to a whole call without field points
 
-// Medians of some mechanical parts, smooth surfaces and layered ones; a few times more or less is common.
+// Medians for mechanical parts, smooth surfaces and layered surfaces; single runs often differ by a factor of
+// a few.
 Costs costs(const Options& options) {
   Costs cost{0.02, 0.1, 0.01, 0.05, 0.05, 0.01, 0.04, 0, 0.3, 0.03};
   if (options.sizes) {
@@ -46,9 +47,8 @@ CallStep last_step(const Options& options) {
   return CallStep::deliver;
 }
 
-// The part of the whole call that a step is, where so much was done when it began: of what is left, as much
-// as it usually takes beside the steps after it. So another attempt goes on from where the last one ended,
-// and progress never goes back.
+// The part of the whole call that a step takes if `done` was done when it began: its usual share of the work
+// that is left. So another attempt continues from the progress of the previous one, which never decreases.
 std::array<double, 2> part_of_call(CallStep step, double done, const Options& options) {
   const Costs cost = costs(options);
   const auto at = cost.begin() + static_cast<std::ptrdiff_t>(step);

@@ -1,4 +1,4 @@
-// The steps of a call in their order, and the progress of the call by the usual cost of its steps.
+// The steps of a call in order, and the progress of the call by their usual cost.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace holdfast {
 
-/// The steps of a call in order: stages, but that validation goes on after Delaunay and that the volume is
-/// taken out of the mesh in the end.
+/// The steps of a call in order: the stages, except that validation continues after Delaunay and that
+/// delivery comes last.
 enum class CallStep : std::size_t {
   validate,
   delaunay,
@@ -25,14 +25,15 @@ enum class CallStep : std::size_t {
   deliver
 };
 
-/// Runs the steps of a call: measures their time, tells the monitor, and leaves out those after the stage at
-/// which the call stops.
+/// Runs the steps of a call: measures their time, informs the monitor, and skips those after the last stage
+/// requested.
 class Course {
  public:
-  /// All three must outlive the course.
+  /// The arguments must outlive the course.
   Course(const Options& options, Monitor& monitor, Report& report);
 
-  /// What `make` returns; an empty value of its type, without a call, if the call stops before the step.
+  /// Returns what `make` returns. If the call stops before the step, returns an empty value without a call of
+  /// `make`.
   template <typename Make>
   auto run(CallStep step, Make&& make) const {
     using Made = decltype(make());
@@ -49,7 +50,7 @@ class Course {
       return made;
     }
   }
-  /// Tells the monitor which part of the whole call the step is.
+  /// Informs the monitor which part of the whole call the step is.
   void begin(CallStep step) const;
   [[nodiscard]] bool reaches(CallStep step) const { return step <= last_; }
 

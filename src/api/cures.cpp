@@ -1,4 +1,4 @@
-// Which options a repair would need: they are tried from the weakest on.
+// Which options a repair would need; options are tried from the weakest on.
 #include "holdfast/cures.h"
 
 #include <algorithm>
@@ -17,15 +17,15 @@
 namespace holdfast {
 namespace {
 
-/// A digit times a power of ten, read as the text that a user types is.
+/// A digit times a power of ten, parsed from the text that a user would type.
 double one_digit(int digit, int exponent) {
   const std::string text = std::to_string(digit) + "e" + std::to_string(exponent);
-  double value = exponent > 0 ? HUGE_VAL : 0;  // beyond the range it stays
+  double value = exponent > 0 ? HUGE_VAL : 0;  // larger numbers stay infinite
   parse_double(text.data(), text.data() + text.size(), value);
   return value;
 }
 
-/// The smallest of 1, 2, ... 9 times a power of ten that is more than x, x > 0.
+/// The smallest of 1, 2, ..., 9 times a power of ten that is greater than x > 0.
 double one_digit_above(double x) {
   int exponent = 0;
   while (one_digit(1, exponent) > x) --exponent;
@@ -70,7 +70,7 @@ class Proposal {
   }
 
  private:
-  /// Of all that is tried, where nobody knows how much it will be.
+  /// The progress over all trials, whose number is not known in advance.
   static double share(std::size_t trial, double fraction) {
     return 1 - 1 / (1 + static_cast<double>(trial) + fraction);
   }
@@ -84,7 +84,7 @@ class Proposal {
     return options;
   }
 
-  /// A repair of the complex; `tried` becomes false where it takes too many points, or finds no doubles.
+  /// Repairs the complex; sets `tried` to false if that takes too many points or finds no doubles.
   RepairResult attempt(double tolerance) {
     RepairOptions options = next_trial();
     options.weld = tolerance;
@@ -99,14 +99,14 @@ class Proposal {
     return result;
   }
 
-  /// A gap may need more than its width: where joining one brings two vertices into a new one, or leads a
-  /// side away from the next one. Where some are left whatever is tried, the least length counts that leaves
-  /// none as narrow as there were. Most lengths are ruled out by what welding alone leaves, without the cuts.
+  /// A gap may need more than its width, if closing one moves two vertices to a new one or pulls a side away
+  /// from the next one. If every length leaves some gaps, the least length that leaves none as narrow as the
+  /// given ones counts. Welding alone, without cuts, rules out most lengths.
   RepairResult weld() {
     double widest = 0;
     for (const Gap& gap : summary_.gaps) widest = std::max(widest, gap.distance);
     if (!(widest > 0) || !std::isfinite(widest)) return {};
-    constexpr int kAttempts = 10;  // so that lengths go up to ten times as much
+    constexpr int kAttempts = 10;  // lengths of up to ten times the width
     double tolerance = one_digit_above(widest * (1 + 0x1p-19)), fair_tolerance = 0;
     for (int i = 0; i < kAttempts; ++i, tolerance = one_digit_above(tolerance)) {
       const auto [narrow, wide] = gaps_welded(tolerance, widest);
@@ -122,7 +122,7 @@ class Proposal {
     return propose_weld(widest, fair_tolerance, std::move(fair));
   }
 
-  /// The gaps that welding alone leaves.
+  /// Like `gaps_left`, after welding alone.
   std::pair<bool, bool> gaps_welded(double tolerance, double widest) {
     repairing::State state = repairing::state_of(complex_);
     const std::size_t trial = trials_++;
@@ -135,7 +135,7 @@ class Proposal {
     return result;
   }
 
-  /// Whether some gap is no wider than those that there were, and whether one of their vertices has a gap.
+  /// Whether some gap is no wider than the given ones, and whether a vertex of a given gap still has one.
   std::pair<bool, bool> gaps_left(const Complex& surface, double widest) const {
     const DefectSummary after = summarise(surface, {});
     const auto is_narrow = [&](const Gap& gap) { return gap.distance <= widest; };

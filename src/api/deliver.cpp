@@ -30,7 +30,7 @@ Warning warn_of_field_points() {
       "for; the sizes differ too much from those of the surface's triangles"};
 }
 
-// Where a good part of the volume does not get the caller's sizes.
+// Warns if a large part of the volume does not get the caller's sizes.
 std::optional<Warning> warn_of_sizes(const Report::Field& field) {
   constexpr double kWorthTelling = 0.1;
   if (field.limited_asked_volume < kWorthTelling || field.limiting.empty()) return std::nullopt;
@@ -47,7 +47,7 @@ std::optional<Warning> warn_of_sizes(const Report::Field& field) {
           decimal(most.wanted, 3) + ", at " + place(most.place) + "; smaller triangles there would bear it"};
 }
 
-// Which vertices of the result are which of the input, both ways.
+// Sets the maps between vertices of the input and of the result.
 void number_vertices(const Input& input, Result& result) {
   result.vertex_map = input.vertex_map();
   std::vector<std::int64_t>& of_volume = result.volume.input_vertices;
@@ -55,7 +55,7 @@ void number_vertices(const Input& input, Result& result) {
   for (Index v = 0; v < input.complex().vertices.size(); ++v) of_volume[v] = input.names()(v);
 }
 
-// `volume` is at the mesh's scale: measures over- and underflow elsewhere.
+// `volume` is at the mesh's scale: at other scales measures overflow or underflow.
 void measure_volume(const Attempt& attempt, const Volume& volume, Field* field, Report& report) {
   report.vertices = volume.vertices.size();
   report.tetrahedra = volume.tetrahedra.size();

@@ -1,4 +1,4 @@
-// The last step of a call: the volume is taken out of the mesh, numbered and measured.
+// The last step of a call: the volume is extracted from the mesh, numbered and measured.
 #pragma once
 
 #include "api/boundary.h"
@@ -6,9 +6,9 @@
 
 namespace holdfast {
 
-/// Fills a result with what there is: the kept regions from `Stage::classify` on, all of the box before.
-/// `field` is null without field points. The outcome becomes `not_representable` if some vertex has no
-/// doubles.
+/// Fills a result with what the run has made: the kept regions from `Stage::classify` on, the whole box
+/// before. `field` is null without field points. The outcome becomes `not_representable` if some vertex has
+/// no doubles.
 void deliver(const Attempt& attempt, const BoxMesh& box, const Division& division, Field* field,
              Result& result);
 

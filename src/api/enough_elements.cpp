@@ -9,7 +9,7 @@
 namespace holdfast {
 namespace {
 
-// Of regular ones. Uniform meshes have 0.8.
+// Shares of the number of regular elements. Uniform meshes have 0.8.
 constexpr double kEnough = 0.65, kNearlyEnough = 0.58, kMany = 1.25;
 constexpr double kLeastFactor = 0.5;
 constexpr unsigned kMostTries = 3;
@@ -39,14 +39,14 @@ bool SizesForEnough::goes_on(std::span<const double> made) {
   return changes;
 }
 
-// Rather too many than too few, where nothing else was found.
+// If no better factor was found, too many elements are better than too few.
 double SizesForEnough::last(std::size_t region, double made) const {
   const bool are_few = made < kNearlyEnough * asked_[region];
   return are_few && too_small_[region] > 0 ? too_small_[region] : factors_[region];
 }
 
-// What sizes give jumps where walls begin to get points: then a factor between two known ones is tried. The
-// user's own size may give any number above.
+// The number of elements jumps where walls begin to get points; then a factor between two known ones is
+// tried. At the user's own size, any greater number is accepted.
 double SizesForEnough::next(std::size_t region, double made) {
   const double factor = factors_[region], asked = asked_[region];
   const bool is_own = factor == 1;

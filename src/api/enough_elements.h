@@ -1,9 +1,9 @@
-// Makes regions have nearly as many elements as the user's sizes ask for.
+// Gives regions nearly as many elements as the user's sizes ask for.
 //
-// Beside triangles that are much larger than the size elements stay large, and thin walls between such
-// triangles get no points: on such surfaces a size gives far fewer elements than the volume takes of it, most
-// of them bad ones. Then the sizes of a region are made smaller, and there is room for good ones beside those
-// that the surface forces (docs/decisions/as-many-elements-as-a-size-asks-for.md).
+// Next to triangles much larger than the size, elements stay large, and thin walls between such triangles get
+// no points. On such surfaces a size gives far fewer elements than the volume needs at that size, and most of
+// them are bad. Then the sizes of a region are reduced, which makes room for good elements
+// (docs/decisions/as-many-elements-as-a-size-asks-for.md).
 #pragma once
 
 #include <span>
@@ -11,17 +11,17 @@
 
 namespace holdfast {
 
-/// Whether so many elements by region may be too few. `asked` are those of `regular_elements`.
+/// Whether the numbers of elements by region may be too small. `asked` is the result of `regular_elements`.
 [[nodiscard]] bool are_too_few_elements(std::span<const double> elements, std::span<const double> asked);
 
-/// Looks for sizes of regions that give enough elements, by what others gave.
+/// Searches sizes of regions that give enough elements, guided by the results of earlier ones.
 class SizesForEnough {
  public:
   explicit SizesForEnough(std::vector<double> asked);
 
-  /// By region, what the user's size is multiplied by: 1 at first.
+  /// By region, the factor for the user's size: 1 at first.
   [[nodiscard]] const std::vector<double>& factors() const { return factors_; }
-  /// Records the elements by region that these factors gave. Returns whether other factors are left to try.
+  /// Records the elements by region that these factors gave. Returns whether other factors remain to try.
   bool goes_on(std::span<const double> made);
 
  private:

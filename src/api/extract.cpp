@@ -13,7 +13,7 @@ class Extractor {
       : source_(source),
         new_index_(std::max(source.mesh.vertex_count(), source.complex.vertices.size()), kNone) {}
 
-  /// `id_of` gives a tetrahedron's region id, or nothing where it stays out.
+  /// `id_of` returns a tetrahedron's region id, or nullopt to leave it out.
   template <typename IdOf>
   void take_tetrahedra(IdOf id_of, const Threads& threads) {
     const TetMesh& mesh = source_.mesh;
@@ -33,7 +33,7 @@ class Extractor {
     });
   }
 
-  /// Numbers the vertices in use and writes positions.
+  /// Numbers the vertices in use and writes their positions.
   void take_vertices(const Threads& threads) {
     const std::span<const Point> input = source_.complex.vertices;
     Volume& volume = extract_.volume;
@@ -63,7 +63,7 @@ class Extractor {
     }
   }
 
-  /// Repeated segments are merged: the table names the first of them.
+  /// Repeated segments are merged: the table names the first one of each.
   template <typename Stays>
   void take_segments(Stays stays) {
     const Complex& complex = source_.complex;
@@ -105,7 +105,7 @@ class Extractor {
   }
 
   const Source& source_;
-  std::vector<Index> new_index_;  // by mesh vertex; kNone where it is not in use
+  std::vector<Index> new_index_;  // by mesh vertex; kNone if not in use
   Extract extract_;
 };
 

@@ -1,4 +1,4 @@
-// Taking a volume out of the mesh: which tetrahedra, renumbered vertices, exact positions.
+// Extraction of a volume from the mesh: selected tetrahedra, renumbered vertices, exact positions.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// A volume and those of its vertices that no double holds; `volume` has the nearest doubles for them.
+/// A volume and its vertices that no double represents; `volume` has the nearest doubles for them.
 struct Extract {
   Volume volume;
   std::vector<FacetRegions> facet_regions;  ///< one a facet of the volume; none without regions
@@ -22,8 +22,8 @@ struct Extract {
   std::size_t steiner_points = 0;  ///< vertices that are neither the complex's nor the box's
 };
 
-/// What extraction reads. The mesh is the complex times 2^scale; its vertices 0 .. n-1 are the complex's,
-/// those up to first_free-1 corners of the box.
+/// The input of extraction. The mesh is the complex times 2^scale; its vertices 0 .. n-1 are the complex's,
+/// and those up to first_free-1 are corners of the box.
 struct Source {
   const TetMesh& mesh;
   const Complex& complex;
@@ -32,12 +32,12 @@ struct Source {
   Vertex first_free;
 };
 
-/// The tetrahedra of the kept regions, with the facets and segments that border on them. Vertices are the
-/// complex's, bit for bit, then every other vertex in use in ascending order.
+/// The tetrahedra of the kept regions, with the facets and segments on them. The vertices are the complex's,
+/// bit for bit, then all other vertices in use in ascending order.
 [[nodiscard]] Extract extract_kept(const Source& source, const Regions& regions, const Kept& kept,
                                    const Threads& threads);
 
-/// Every tetrahedron of the box as region 0, and the facets and segments that stand: what there is before
+/// Every tetrahedron of the box as region 0, with the facets and segments that exist: the state before
 /// classification, for `stop_after`.
 [[nodiscard]] Extract extract_all(const Source& source, const Standing& standing);
 

@@ -13,7 +13,7 @@
 namespace holdfast {
 namespace {
 
-// Functions of the caller may be slow. Those that several threads call have no monitor to ask that all may.
+// The caller's functions may be slow. Concurrent ones are not polled, since their threads have no monitor.
 Sizes polling(Sizes sizes, Monitor& monitor) {
   if (sizes.concurrent) return sizes;
   if (sizes.field)
@@ -61,7 +61,7 @@ bool Field::is_limited() const {
   });
 }
 
-// As large as those of the vertices that they are joined to.
+// Each new vertex gets the largest size of its neighbours that have one.
 void Field::give_sizes_to_new_vertices() {
   const TetMesh& mesh = box_.mesh;
   const std::size_t first = sizes_.size();
@@ -89,7 +89,7 @@ VolumeData Field::volume() {
 
 namespace {
 
-// A mesh that field points are to be put into, to begin again with.
+// A mesh before field points, kept for another try.
 struct Unfilled {
   BoxMesh box;
   Division division;
@@ -103,7 +103,7 @@ void note_smaller_sizes(const SizeFunction& sizes, std::span<const double> facto
   }
 }
 
-// Returns whether that stopped early.
+// Returns whether it stopped early.
 bool add_points(const Attempt& attempt, Field& field) {
   FieldPoints added =
       add_field_points(field.volume(), field.size_function(), attempt.threads, attempt.monitor);

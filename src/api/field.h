@@ -1,4 +1,4 @@
-// Kept regions with field points, and the sizes that these are for (paper §8).
+// Kept regions with field points, and the sizes that determine these (paper §8).
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// The mesh and its division are those of the call, and must outlive it.
+/// The mesh and its division belong to the call, and must outlive it.
 class Field {
  public:
   Field(const Attempt& attempt, BoxMesh& box, Division& division);
@@ -21,18 +21,18 @@ class Field {
   Field& operator=(const Field&) = delete;
 
   [[nodiscard]] VolumeData volume();
-  /// Of all vertices, as the surface and the user ask for.
+  /// Sets the sizes of all vertices that the surface and the user ask for.
   void set_sizes(const Attempt& attempt);
-  /// Of those that came without.
+  /// Sets the sizes of added vertices that have none.
   void give_sizes_to_new_vertices();
-  /// As long as a large mesh is in parts, for its improvement to go on with; else null.
+  /// Set while a large mesh is in parts, so that improvement can continue with them; otherwise null.
   std::unique_ptr<Parts> parts;
   [[nodiscard]] const SizeFunction& size_function() const { return size_function_; }
   void set_size_function(SizeFunction sizes) { size_function_ = std::move(sizes); }
-  /// Whether the user's limit is what is wanted at some vertex.
+  /// Whether the user's limit determines the size of some vertex.
   [[nodiscard]] bool is_limited() const;
   [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
-  /// To compare with, where the surface alone decides on sizes; else null.
+  /// For comparison if the surface alone decides on sizes; otherwise null.
   std::unique_ptr<WithoutField> without;
   double worst_without = 0;  ///< its worst Q, once it is optimised
 
@@ -43,11 +43,11 @@ class Field {
   const bool asks_for_metric_;
   SizeFunction size_function_;
   std::vector<double> sizes_;    // by vertex
-  std::vector<Metric> metrics_;  // by vertex; empty without a metric of the user
+  std::vector<Metric> metrics_;  // by vertex; empty unless the user gives a metric
 };
 
-/// Adds points; smaller sizes than the user's are set where too few elements come of those given for regions.
-/// Returns whether that stopped early.
+/// Adds points. Uses smaller sizes than the user's if those of a region give too few elements. Returns
+/// whether it stopped early.
 bool add_enough_points(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
                        Report::Field& report);
 

@@ -13,7 +13,7 @@
 namespace holdfast {
 namespace {
 
-// Bit for bit, since of equal numbers 0 has two.
+// Bitwise, because 0 and -0 are equal numbers.
 bool are_same(const Point& x, const Point& y) {
   using Bits = std::array<std::uint64_t, 3>;
   return std::bit_cast<Bits>(x) == std::bit_cast<Bits>(y);
@@ -43,7 +43,7 @@ std::optional<Filling> Fillings::fill(const ToFill& asked, const LikelyToFill& l
   return std::move(made.filling);
 }
 
-// What was made and is not asked for before so much else is, was a mistake.
+// Fillings that are not asked for while many others are were wrong guesses; the oldest are dropped.
 void Fillings::make_with_likely(const ToFill& asked, const LikelyToFill& likely) {
   const std::size_t most = threads_.count();
   std::vector<Made> fresh{{asked, {}, {}}};

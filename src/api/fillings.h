@@ -1,5 +1,5 @@
-// The fillings of polyhedra that an optimisation asks for one by one, made by several threads: while one
-// thread makes the present filling, the others make those likely to be asked for next.
+// Makes the fillings of polyhedra that an optimisation asks for one by one on several threads: while one
+// thread makes the requested filling, the others make those likely to be requested next.
 #pragma once
 
 #include <exception>
@@ -13,10 +13,10 @@
 
 namespace holdfast {
 
-/// A filling depends only on its polyhedron, so it does not matter when it was made.
+/// A filling depends only on its polyhedron, so the time at which it is made does not matter.
 class Fillings {
  public:
-  /// All of these must outlive it.
+  /// The arguments must outlive it.
   Fillings(const Limits& limits, Monitor& monitor, const Threads& threads)
       : limits_(limits), monitor_(monitor), threads_(threads) {}
 
@@ -27,7 +27,7 @@ class Fillings {
   struct Made {
     ToFill asked;
     std::optional<Filling> filling;
-    std::exception_ptr error;  // for whoever asks
+    std::exception_ptr error;  // thrown when the filling is requested
   };
   [[nodiscard]] std::vector<Made>::iterator find(const ToFill& asked);
   void make_with_likely(const ToFill& asked, const LikelyToFill& likely);
@@ -35,7 +35,7 @@ class Fillings {
   const Limits& limits_;
   Monitor& monitor_;
   const Threads& threads_;
-  std::vector<Made> made_;  // and not asked for yet
+  std::vector<Made> made_;  // and not requested yet
 };
 
 }  // namespace holdfast

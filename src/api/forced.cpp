@@ -47,7 +47,7 @@ class FacetsAtVertices {
     }
   }
 
-  /// Those at the vertex that has the fewest of them: some have thousands.
+  /// The facets at the vertex that has the fewest of them: some vertices have thousands.
   template <std::size_t N>
   [[nodiscard]] std::span<const Index> at_least_of(const std::array<Index, N>& vertices) const {
     return at(*std::min_element(vertices.begin(), vertices.end(),
@@ -63,8 +63,8 @@ class FacetsAtVertices {
   std::vector<Index> facets_;
 };
 
-// An angle of 10 degrees makes Q larger than this: the inscribed ball is flat between the two faces. Saves
-// most elements from having their angles computed.
+// An element with an angle of 10 degrees has a Q above this, because its inscribed ball is flat between the
+// two faces. This avoids computing the angles of most elements.
 constexpr double kQualityOfSmall = 2;
 
 struct SmallAngle {
@@ -122,7 +122,7 @@ class ForcedElements {
   }
 
  private:
-  // The faces at an edge are those opposite the other two corners.
+  // The faces at an edge are opposite the other two corners.
   std::vector<Index> to_blame(const Tetrahedron& c, int edge) {
     std::vector<Index> both, small;
     const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
@@ -144,7 +144,8 @@ class ForcedElements {
   struct Wing {
     Index facet, apex;
   };
-  // Two facets at an edge with a small angle between them: whatever lies there has no larger one.
+  // Two facets at an edge with a small angle between them, which bounds the angle of every element in
+  // between.
   std::vector<Index> wedge_at(Index a, Index b) {
     std::vector<Wing> wings;
     for (const Index f : facets_at().at_least_of(std::array{a, b})) {
@@ -159,7 +160,7 @@ class ForcedElements {
     return {};
   }
 
-  // Of the half-planes from the line ab through p and through q, in degrees.
+  // The angle between the half-planes from the line ab through p and through q, in degrees.
   [[nodiscard]] double angle_between(Index a, Index b, Index p, Index q) const {
     const auto& v = volume_.vertices;
     Point axis, to_p, to_q;
@@ -191,7 +192,7 @@ class ForcedElements {
     return std::nullopt;
   }
 
-  // The table is built when first asked for: most volumes have no such element.
+  // Built on first use, because most volumes have no such element.
   const FacetsAtVertices& facets_at() {
     if (!facets_at_) facets_at_.emplace(volume_.facets, volume_.vertices.size(), tell_);
     return *facets_at_;

@@ -13,7 +13,7 @@
 namespace holdfast {
 namespace {
 
-// The vertices of a tangle that stand, in the mesh: fixed ones come first.
+// The mesh numbers of a tangle's fixed vertices, which come first, and of the free ones.
 struct Numbering {
   std::vector<Vertex> in_mesh;    // by vertex of the tangle, or kNone
   std::vector<Vertex> in_tangle;  // by vertex of the mesh
@@ -40,7 +40,7 @@ std::vector<Tet> tetrahedra_of(const Tangle& tangle) {
   return tets;
 }
 
-// Which regions a mesh has.
+// The regions of a mesh.
 struct Regions {
   std::vector<int> ids;      // by region; region 0 is the outside
   std::vector<RegionId> of;  // by tetrahedron
@@ -51,7 +51,7 @@ struct Regions {
   }
 };
 
-// `slots` is the number of the mesh's tetrahedra; those behind the tangle's are outside.
+// `slots` is the number of the mesh's tetrahedra; those after the tangle's are outside.
 Regions regions_of(const Tangle& tangle, std::span<const Tet> tets, std::size_t slots) {
   Regions regions{{}, std::vector<RegionId>(slots, 0)};
   for (const Tet t : tets) regions.ids.push_back(tangle.region(t));
@@ -64,7 +64,7 @@ Regions regions_of(const Tangle& tangle, std::span<const Tet> tets, std::size_t 
   return regions;
 }
 
-// The tetrahedra of a tangle with ghosts round them, each linked to its neighbours.
+// The tetrahedra of a tangle, closed by ghosts and linked to their neighbours.
 class WithGhosts {
  public:
   WithGhosts(const Tangle& tangle, std::span<const Tet> tets, const std::vector<Vertex>& in_mesh)
@@ -106,7 +106,7 @@ class WithGhosts {
 
   [[nodiscard]] int index_of(Tet k, Vertex v) const { return index_among(cells_[k].corners, v); }
 
-  // Two are neighbours where turning round their edge, through the mesh, leads from one to the other.
+  // Two ghosts are neighbours if a turn around their edge, through the mesh, leads from one to the other.
   void link_ghosts() {
     for (auto ghost = static_cast<Tet>(tets_.size()); ghost < cells_.size(); ++ghost)
       for (int j = 0; j < 3; ++j) {
@@ -122,7 +122,7 @@ class WithGhosts {
       }
   }
 
-  std::span<const Tet> tets_;  // of the tangle, which come first
+  std::span<const Tet> tets_;  // of the tangle; their cells come first
   std::vector<TetMesh::Cell> cells_;
 };
 
@@ -154,7 +154,7 @@ void mark_constraints(const Tangle& tangle, const std::vector<Vertex>& in_tangle
   MeshEditor(mesh).finish();
 }
 
-// The mean length of the edges at each vertex, an edge once for each element.
+// The mean length of the edges at each vertex; an edge counts once for each of its elements.
 std::vector<double> sizes_at_vertices(const TetMesh& mesh, Tet tetrahedra) {
   std::vector<double> sizes(mesh.vertex_count(), 0);
   std::vector<std::size_t> count(mesh.vertex_count(), 0);
@@ -171,7 +171,7 @@ std::vector<double> sizes_at_vertices(const TetMesh& mesh, Tet tetrahedra) {
   return sizes;
 }
 
-// A tangle as a mesh with a hull of ghosts, whose vertices that stand come first.
+// A tangle as a mesh closed by ghosts, with the fixed vertices first.
 class AsMesh {
  public:
   AsMesh(const Tangle& tangle, const exact::DoubleGrid& grid, std::uint64_t seed)
@@ -191,7 +191,7 @@ class AsMesh {
     return {mesh_, regions_.of, sizes_, kept_, number_.first_free, nullptr, nullptr, seed_, nullptr};
   }
 
-  // New vertices of the mesh come after all of the tangle.
+  // New vertices of the mesh are numbered after all vertices of the tangle.
   [[nodiscard]] Tangle tangle() {
     std::vector<Vertex> number = number_.in_tangle;
     std::vector<Point> points;

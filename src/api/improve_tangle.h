@@ -1,5 +1,5 @@
-// The last part of the paper's §6.4: once no tetrahedron is negative or null, elements are made better, by
-// the improver of meshes with field points.
+// The last part of the paper's §6.4: when no tetrahedron is negative or null, elements are improved as in
+// meshes with field points.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct ImprovedTangle {
   Figures before, after;
 };
 
-/// All tetrahedra must be positive. Constraints and fixed vertices stand, vertices keep their numbers and new
-/// ones come last. None of the figures of the mesh (optimise/figures.h) gets worse.
+/// All tetrahedra must be positive. Constraints and fixed vertices stay, vertices keep their numbers, and new
+/// ones come last. No figure of the mesh (optimise/figures.h) gets worse.
 ImprovedTangle improve_tangle(Tangle& tangle, const exact::DoubleGrid& grid, std::uint64_t seed,
                               Monitor& monitor);
 

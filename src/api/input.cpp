@@ -22,7 +22,7 @@ std::vector<Defect> Input::validate(Report::Input& counts) {
   if (!elements_.flaws.empty() || last == Stage::validate)
     if (std::vector<Defect> found = defects(); !found.empty()) return found;
   counts = all_counts;
-  // Dangling facets enclose nothing wherever their vertices are; so say this before the long work.
+  // Dangling facets enclose nothing wherever their vertices are, so this is reported before the long work.
   const bool encloses = counts.dangling_facets < complex().facets.size();
   const bool must_enclose = options_.keep != Keep::box && last >= Stage::classify;
   if (encloses || !must_enclose) return {};
@@ -31,7 +31,7 @@ std::vector<Defect> Input::validate(Report::Input& counts) {
   return found;
 }
 
-// Neither list asks for the other. That of segments needs indices in range.
+// Elements and the segment table are independent of each other. The table needs indices in range.
 Report::Input Input::list_elements_and_segments() {
   constexpr std::size_t kWorthThreads = 10'000;
   const Threads shared = threads_.at_most(given_.facets.size() < kWorthThreads ? 1 : threads_.count());
@@ -61,8 +61,8 @@ void Input::count_places(Report::Input& counts) const {
   counts.vertices = given_.vertices.size() - places.merged - places.left_out;
 }
 
-// What stands in the Delaunay mesh fits together, as faces of one triangulation do. So the exact test is
-// left for what is missing there: of a fine surface, next to nothing.
+// Constraints that exist in the Delaunay mesh meet properly, as faces of one triangulation. So only the
+// missing ones need the exact test: on a fine surface, very few.
 std::vector<Defect> Input::validate_missing(TetMesh& mesh, const Standing& standing) {
   if (std::exchange(elements_fit_, true)) return {};
   const Standing fitting = with_other_diagonals(mesh, complex(), table_, standing);
@@ -89,7 +89,7 @@ Sizes Input::sizes() const {
 
 double Input::target() {
   if (!target_) {
-    const int scale = choose_scale(complex().vertices);  // measures over- and underflow
+    const int scale = choose_scale(complex().vertices);  // at other scales measures overflow or underflow
     target_ = scale == 0 ? target_quality(complex().vertices, complex().facets, threads_)
                          : target_quality(scaled(complex().vertices, scale), complex().facets, threads_);
   }

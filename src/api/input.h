@@ -1,5 +1,5 @@
-// The input of a call, with all that validation finds out about it, once for all attempts. From then on the
-// complex has each place once (surface/places.h). Only data for the caller uses the given indices.
+// The input of a call and all results of its validation, shared by all attempts. Its complex has each place
+// once (surface/places.h). Only data for the caller uses the given indices.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace holdfast {
 
-/// What was given with each place once: the same complex, unless its vertices repeat a place or some are left
-/// out.
+/// The given complex with each place once; it is not copied unless its vertices repeat a place or some are
+/// left out.
 class DistinctPlaces {
  public:
   explicit DistinctPlaces(const Complex& given) : complex_(given) {}
@@ -36,25 +36,25 @@ class DistinctPlaces {
 
   [[nodiscard]] const Complex& complex() const { return complex_; }
   [[nodiscard]] VertexNames names() const { return VertexNames(merged_.first); }
-  /// The vertex of `complex` for one that was given.
+  /// The vertex of `complex` for a given one.
   [[nodiscard]] Index operator()(Index given) const {
     return merged_.index.empty() ? given : merged_.index[given];
   }
-  /// Of all that were given; empty where they are the same.
+  /// By given vertex; empty if the complexes are the same.
   [[nodiscard]] const std::vector<Index>& index() const { return merged_.index; }
-  /// The sizes at the vertices of `complex` for those at the given ones.
+  /// The sizes at the vertices of `complex`, taken from the given ones.
   [[nodiscard]] std::vector<double> sizes(const std::vector<double>& given) const {
     return merged_.index.empty() || given.empty() ? given : merged_sizes(merged_, given);
   }
 
  private:
-  Complex complex_;  // what was given, or merged_
+  Complex complex_;  // the given complex, or merged_
   Merged merged_;
 };
 
 class Input {
  public:
-  /// `parts` are those of a complex that was pasted together, else null.
+  /// `parts` are the parts of a pasted complex, or null.
   Input(const Complex& complex, SamePlace same_place, const Options& options, const Threads& threads,
         Monitor& monitor, PartsOfComplex* parts = nullptr)
       : given_(complex),
@@ -65,29 +65,29 @@ class Input {
         monitor_(monitor),
         parts_(parts) {}
 
-  /// Defects that can be found before Delaunay, and the counts of the input; none if all is well so far.
+  /// Returns the defects that can be found before Delaunay, and fills the counts of the input.
   [[nodiscard]] std::vector<Defect> validate(Report::Input& counts);
-  /// The other defects, found with the Delaunay tetrahedra; later calls do nothing.
+  /// Returns the other defects, found with the Delaunay tetrahedra; later calls do nothing.
   [[nodiscard]] std::vector<Defect> validate_missing(TetMesh& mesh, const Standing& standing);
 
-  /// All of both, by a search of its own that takes as long as `diagnose`.
+  /// All defects of both kinds, by a separate search that takes as long as `diagnose`.
   [[nodiscard]] std::vector<Defect> defects() const;
 
-  /// With each place once.
+  /// The complex with each place once.
   [[nodiscard]] const Complex& complex() const { return distinct_.complex(); }
-  /// What the caller calls the vertices of `complex`.
+  /// The caller's numbers for the vertices of `complex`.
   [[nodiscard]] VertexNames names() const { return distinct_.names(); }
-  /// Of Result.
+  /// The `vertex_map` of a Result.
   [[nodiscard]] std::vector<std::int64_t> vertex_map() const { return as_map(distinct_.index()); }
-  /// Those of the options, for the vertices of `complex`.
+  /// The sizes of the options, for the vertices of `complex`.
   [[nodiscard]] Sizes sizes() const;
   [[nodiscard]] const SegmentTable& table() const { return table_; }
-  /// The paper's Target, of all facets; computed once.
+  /// The paper's Target for all facets; computed once.
   [[nodiscard]] double target();
 
   [[nodiscard]] PartsOfComplex* parts() const { return parts_; }
 
-  /// `diagnose` gives them all.
+  /// `diagnose` returns them all.
   static constexpr std::size_t kMostDefects = 100;
 
  private:
@@ -102,7 +102,7 @@ class Input {
   const Threads threads_;
   Monitor& monitor_;
   PartsOfComplex* const parts_;
-  Elements elements_;  // of what was given, until they are known to fit together
+  Elements elements_;  // of the given complex, until they are known to be valid
   bool elements_fit_ = false;
   SegmentTable table_;
   std::optional<double> target_;

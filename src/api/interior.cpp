@@ -49,12 +49,13 @@ void note(const ImproveStats& stats, Report::Field& report) {
   report.stopped_early |= stats.filling_stopped_early;
 }
 
-// The part of the stage's work that every effort takes.
+// The share of the stage's work that every effort does.
 constexpr double kCommonWork = 0.6;
 
-// Where facets force most of what is bad, more elements hardly help: other meshers have as many as the volume
-// takes without field points. Points go until there are so many times as many, or as many as the user's sizes
-// take, and come again where they pay, until there are so many times as many as that.
+// If facets force most bad elements, more elements hardly help; other meshers use about as many as the volume
+// takes without field points. Points are removed until kTimesThoseWithout times that many elements are left,
+// or as many as the user's sizes ask for. Points that pay are added again, up to kTimesThoseLeft times that
+// number.
 constexpr double kTimesThoseWithout = 1.25, kTimesThoseLeft = 1.08;
 double elements_left_of(const WithoutField& without) {
   return std::max(kTimesThoseWithout * static_cast<double>(without.elements()), without.elements_asked_for());
@@ -67,8 +68,8 @@ double elements_of(const Report::Shape& shape) {
   return static_cast<double>(std::accumulate(shape.quality.begin(), shape.quality.end(), std::size_t{0}));
 }
 
-// It is brief where it may go on for falling behind the mesh without field points. Where the user's sizes
-// take more elements than that, and there are no more than they take, there is nothing to compare.
+// The pass is brief if work may continue when it falls behind the mesh without field points. If the user's
+// sizes ask for more elements than that mesh has, and no more were made, there is nothing to compare.
 Extent extent_of_fast(const Attempt& attempt, Field& field, double elements) {
   Extent extent = Effort::fast;
   if (!field.without || !field.without->is_given()) return extent;
@@ -79,7 +80,7 @@ Extent extent_of_fast(const Attempt& attempt, Field& field, double elements) {
   return extent;
 }
 
-// What every effort begins with.
+// The first pass of every effort.
 ImproveStats improve_as_fast(const Attempt& attempt, Field& field, Report::Field& report) {
   const Threads& threads = attempt.threads;
   report.before =
@@ -93,7 +94,7 @@ ImproveStats improve_as_fast(const Attempt& attempt, Field& field, Report::Field
   return stats;
 }
 
-// Long thin facets may leave flat elements: what the other optimisation is made for.
+// Long thin facets may leave flat elements, for which the optimisation without field points is made.
 void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Report& report) {
   std::vector<Tet> flat = division.tets(box.mesh);
   std::erase_if(flat, [&](Tet t) {
@@ -105,15 +106,15 @@ void improve_flat(const Attempt& attempt, BoxMesh& box, Division& division, Repo
   if (!flat.empty()) optimise_worst_of(attempt, box, division, flat, PointsToRemove::added_here, report);
 }
 
-// A mesh that field points and the common work have made.
+// A mesh after field points and the common work.
 struct Begun {
-  bool was_brief;                  // and that was enough
-  std::optional<Figures> figures;  // where they are known
+  bool was_brief;                  // and a brief pass was enough
+  std::optional<Figures> figures;  // if they are known
 };
 
-// Field points must not make any figure worse than it is without. What was brief goes on. Where little is
-// missing, more work may help; if it does not, only points that better their surroundings are put into the
-// mesh without.
+// Field points must not make any figure worse than it is without them. A brief pass is completed first. If
+// the gap is small, more work may close it; otherwise the mesh without field points is taken, and gets only
+// points that improve their surroundings.
 Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, bool was_brief,
                      Report& report) {
   constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
@@ -133,7 +134,7 @@ Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, F
     now = figures_of(field.volume(), attempt.threads);
     if (!without.is_better_somewhere(now)) return {false, now};
   }
-  if (field.is_limited()) return {false, now};  // its edges are too long
+  if (field.is_limited()) return {false, now};  // its edges would exceed the user's limit
   without.take(box, division);
   field.set_sizes(attempt);
   report.field.points = 0;
@@ -143,7 +144,7 @@ Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, F
   return {false, std::nullopt};
 }
 
-// Where facets force much of what is bad, what can be bettered are the shares of elements with small angles.
+// If facets force many of the bad elements, only the shares of elements with small angles can be improved.
 Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
   constexpr double kManySmall = 0.3;
   Extent extent = Effort::good;
@@ -160,12 +161,13 @@ Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
   return extent;
 }
 
-// More effort goes on where less has ended, and makes no figure worse: so it never pays to spend less.
+// More effort starts from the result of less effort and makes no figure worse, so less effort never gives a
+// better mesh.
 void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division, Field& field,
                         Report& report) {
   const Threads& threads = attempt.threads;
   const ImproveStats common = improve_as_fast(attempt, field, report.field);
-  // Flat ones are told from others in space; in a metric they may be as they should be.
+  // Flatness is measured in space; in a metric, flat elements may be right.
   if (common.worst > kEnergyOfFlat && !field.has_metric()) {
     improve_flat(attempt, box, division, report);
     field.give_sizes_to_new_vertices();
@@ -191,7 +193,7 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
   report.field.edge_lengths = edge_lengths_of(field.volume(), threads);
 }
 
-// Each region has levels of its own, which improvement keeps to.
+// Each region has its own levels, which improvement preserves.
 void keep_layers(const Attempt& attempt, const VolumeData& volume, bool improves, Report::Layers& report) {
   const unsigned layers = attempt.options.sizes->layers;
   if (layers < 2) return;
@@ -217,9 +219,9 @@ void keep_layers(const Attempt& attempt, const VolumeData& volume, bool improves
   }
 }
 
-// Points for ratios make angles smaller, and improvement, which knows nothing of ratios, lets nearly all of
-// them be while it makes angles larger than they were. It heeds bounds on volumes, so that it leaves next to
-// nothing to do for a second pass; what a pass without it leaves is exact.
+// Points for ratios make angles smaller. Improvement ignores ratios but only makes angles larger, so it keeps
+// nearly all of these points. It respects bounds on volumes, so a second pass finds next to nothing to do; a
+// last pass without improvement makes the bounds exact.
 void bound(const Attempt& attempt, const VolumeData& volume, bool improves, Report::Bounds& report) {
   const std::vector<std::uint8_t> fresh(volume.mesh.vertex_count(), 0);
   const double most_ratio = attempt.options.sizes->max_ratio;
@@ -230,9 +232,9 @@ void bound(const Attempt& attempt, const VolumeData& volume, bool improves, Repo
   report.points += bound_volumes(volume, attempt.monitor).points;
 }
 
-// Layers come last: points for bounds would join what levels keep apart, and parted edges break no bound.
+// Layers come last: points for bounds could join what levels separate, and splitting edges breaks no bound.
 void keep_bounds(const Attempt& attempt, Field& field, bool improves, Report& report) {
-  field.give_sizes_to_new_vertices();  // points for flat elements have none
+  field.give_sizes_to_new_vertices();  // points added against flat elements have none
   bound(attempt, field.volume(), improves, report.bounds);
   keep_layers(attempt, field.volume(), improves, report.layers);
 }

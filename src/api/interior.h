@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// Adds points until edges have the sizes asked for. Null if some vertex inside has no doubles: then the
-/// attempt has failed already.
+/// Adds points until edges have the requested sizes. Returns null if some vertex inside has no doubles,
+/// because then the attempt has already failed.
 [[nodiscard]] std::unique_ptr<Field> add_field_points(const Attempt& attempt, BoxMesh& box,
                                                       Division& division, Report& report);
 

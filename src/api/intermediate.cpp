@@ -5,7 +5,7 @@
 namespace holdfast {
 namespace {
 
-// Inner vertices of a chain; those inside a facet.
+// Records the inner vertices of a chain, and those inside a facet.
 void tell_added(Intermediate& told, const ConstraintPieces& pieces, const SegmentTable& table,
                 std::span<const Index> number) {
   for (const ConstraintPieces::Chain& chain : pieces.chains)

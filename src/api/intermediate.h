@@ -1,4 +1,4 @@
-// The constraints of a run that ends before regions are found, in the vertex numbers of the delivered volume.
+// The constraints of a run that ends before regions are found, in vertex numbers of the delivered volume.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace holdfast {
 
-/// `number`: of each vertex of the mesh in the volume.
+/// `number` has the volume's number of each vertex of the mesh.
 [[nodiscard]] Intermediate intermediate_of(const Attempt& attempt, const BoxMesh& box,
                                            std::span<const Index> number);
 

@@ -24,7 +24,7 @@ void require(bool sensible, const char* otherwise) {
 constexpr unsigned kMostLayers = 100;
 constexpr double kLeastRatio = 0.61237243569579452;  // sqrt(6) / 4
 
-// Also of a volume.
+// The same test serves for a volume.
 bool is_length_or_none(double x) { return x >= 0 && std::isfinite(x); }
 
 void require_sensible_sizes(const Complex& complex, const Sizes& sizes) {
@@ -42,7 +42,7 @@ void require_sensible_sizes(const Complex& complex, const Sizes& sizes) {
           "sizes of vertices must be finite and not negative");
 }
 
-// A box has corners beyond all vertices.
+// The corners of the box lie beyond all vertices.
 bool has_room_for_box(const Complex& complex) {
   constexpr double kMost = std::numeric_limits<double>::max();
   return std::none_of(complex.vertices.begin(), complex.vertices.end(), [](const Point& p) {
@@ -50,7 +50,7 @@ bool has_room_for_box(const Complex& complex) {
   });
 }
 
-// Corners of the box that is kept lie within this one, however they are rounded.
+// The corners of a kept box lie within this one, whatever their rounding.
 bool is_far_outside(const Point& p, const Complex& complex, double margin) {
   if (complex.vertices.empty()) return false;
   Point low = complex.vertices[0], high = low;
@@ -66,9 +66,9 @@ bool is_far_outside(const Point& p, const Complex& complex, double margin) {
   return false;
 }
 
-// A vertex of an open border in the region of `seed`: facets that end there may once have divided it. Where
-// little is missing, both ends of an edge of the border lie on the surface; only what is between them does
-// not.
+// A vertex of an open border in the region of `seed`: facets that end there may once have divided the region.
+// If only little is missing, the ends of a border edge lie on the rest of the surface, and only its inside
+// does not.
 std::optional<Index> open_border_beside(const Complex& complex, const SegmentTable& table, const Point& seed,
                                         const std::function<void()>& step) {
   const std::vector<char> gone = peeled_from_borders(table);

@@ -1,4 +1,4 @@
-// A call of `mesh`: judge the options, validate, then attempts with one seed after the other.
+// A call of `mesh`: check the options, validate, then make attempts with successive seeds.
 #include "api/mesh.h"
 
 #include <algorithm>
@@ -31,19 +31,19 @@ namespace {
 
 constexpr std::size_t kMostAttempts = 5;
 
-// Where the worst element is so many times as bad as the facets ask for, polyhedra round it are filled anew:
-// from fewer times on where facets are few, and that costs next to nothing.
+// If the worst element is this many times as bad as the facets require, polyhedra around it are filled again;
+// the factor is lower for few facets, where this costs almost nothing.
 constexpr std::size_t kFewFacets = 1'000;
 constexpr double kNearTarget = 3, kFarFromTarget = 10;
 
-// Where it still is, other random orders of the whole may do better: these, whatever the seed, so that runs
-// with different seeds end with the same choice. With many facets that takes long, and has to be worth it.
+// If it still is, other random orders of the whole mesh may do better. Their seeds are fixed, so that runs
+// with different seeds make the same choice. With many facets this takes long and needs a larger gain.
 constexpr double kVeryFarFromTarget = 1'000;
 constexpr std::size_t kOtherChoices = 8, kChoicesInVain = 4;
 constexpr std::uint64_t kFirstOtherSeed = 0x9E3779B97F4A7C15;
 constexpr std::size_t kMostFacetsForChoices = 5'000;
 
-// The one of the overloads that is no template.
+// Selects the overload that is not a template.
 Result mesh_complex(const Complex& complex, const Options& options) { return mesh(complex, options); }
 
 class Call {
@@ -88,12 +88,12 @@ class Call {
       judge_bounds(options_, threads_, result_);
   }
 
-  // Of a component that is meshed alone when the rest is done.
+  // For a component that is meshed separately after the rest.
   [[nodiscard]] Options options_of_component() {
     Options options = options_;
     static_cast<Limits&>(options) = limits_;
     options.sizes = input_.sizes();
-    options.neighbours = false;  // those of the whole volume follow
+    options.neighbours = false;  // computed later, for the whole volume
     if (options_.progress)
       options.progress = [this](const Progress& now) {
         return options_.progress({now.stage, now.fraction, monitor_.overall()});
@@ -101,7 +101,7 @@ class Call {
     return options;
   }
 
-  // Jobs within jobs have other callers.
+  // Only the caller's thread polls; nested jobs run on other threads.
   void poll() {
     if (std::this_thread::get_id() == caller_) monitor_.poll_again();
   }
@@ -114,7 +114,7 @@ class Call {
     });
   }
 
-  // Regions of a surface that is not valid are none, so that is told first.
+  // Regions exist only in a valid surface, so defects are reported first.
   void judge_places() {
     std::optional<Options> without_parts;
     if (input_.parts() != nullptr) {
@@ -140,7 +140,7 @@ class Call {
 
   [[nodiscard]] std::optional<Filling> fill(const ToFill& asked, const LikelyToFill& likely) {
     try {
-      // All of them together.
+      // One limit for all fillings together.
       if (!end_of_filling_) end_of_filling_ = half_of_the_time();
       const LessTime half(limits_, *end_of_filling_);
       return fillings_.fill(asked, likely);
@@ -152,8 +152,8 @@ class Call {
     return std::nullopt;
   }
 
-  // As long as it lives, this is all the time there is: for what may be done without, when a result is there
-  // that has to be delivered, and written, within the limit.
+  // Shortens the time limit during its lifetime: for optional work, when a result exists that must still be
+  // delivered and written within the limit.
   class LessTime {
    public:
     LessTime(Limits& limits, double limit) : limits_(limits), whole_(limits.time_limit) {
@@ -168,14 +168,14 @@ class Call {
     const double whole_;
   };
 
-  // Half of what is left, in the terms of the limit.
+  // Half of the time that is left, expressed as a time limit.
   [[nodiscard]] double half_of_the_time() const {
     const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - *limits_.started;
     return (gone.count() + limits_.time_limit) / 2;
   }
 
-  // What is flat is seldom forced. With field points the choice is that of the mesh without, to which they
-  // are held, whatever they and the effort have made of it.
+  // Flat elements are seldom forced. With field points, the mesh without them is judged, because it is the
+  // standard for them; later effort does not count.
   void try_other_choices() {
     const double worst = options_.sizes ? worst_without_field_ : result_.report.elements.worst;
     const double far = far_from_target();
@@ -189,7 +189,7 @@ class Call {
       choose_the_best(far);
   }
 
-  // The Q above which a mesh without field points is not left as it is.
+  // The Q above which other orders of a mesh without field points are tried.
   [[nodiscard]] double far_from_target() {
     return (has_few_facets() ? kNearTarget : kVeryFarFromTarget) * input_.target();
   }
@@ -228,15 +228,15 @@ class Call {
     if (best) try_instead(options_, *best, [](const Result&) { return true; });
   }
 
-  // How many orders in a row have not gained a fifth. The same worst element says as much as two others: it
-  // is seldom there by chance.
+  // How many orders in a row gained less than a fifth. An identical worst element counts twice, because it is
+  // seldom a coincidence.
   static std::size_t in_vain_with(const Result& other, double worst, std::size_t in_vain) {
     if (other.report.elements.worst < 0.8 * worst) return 0;
     return in_vain + (other.report.elements.worst == worst ? 2 : 1);
   }
 
-  // Another attempt in the place of the result, if it is done and `is_better`. Returns false where a limit or
-  // an error has ended it.
+  // Makes another attempt, which replaces the result if it is done and `is_better`. Returns false if a limit
+  // or an error ended it.
   template <typename IsBetter>
   bool try_instead(const Options& options, std::uint64_t seed, IsBetter&& is_better) {
     Result before = std::exchange(result_, {});
@@ -246,9 +246,9 @@ class Call {
     return true;
   }
 
-  // Where no doubles were found for some point, others may be with another random order, or where flips have
-  // not put the points there: every other attempt leaves them out. The attempt with the fewest such points
-  // counts, also where a limit or an error ends the next one: then returns false.
+  // If some point has no doubles, another random order may help, or an attempt without flips, which may have
+  // placed the point: every other attempt uses none. The attempt with the fewest such points counts. Returns
+  // false if a limit or an error ends the new one.
   bool try_again() {
     Result best = std::exchange(result_, {});
     const LessTime half(limits_, half_of_the_time());
@@ -259,7 +259,7 @@ class Call {
     return true;
   }
 
-  // Where a limit or an error ends the attempt, `before` is the result again; then returns false.
+  // If a limit or an error ends the attempt, restores `before` as the result and returns false.
   template <typename Attempted>
   bool attempt_after(Result& before, Attempted&& attempted) {
     try {
@@ -277,7 +277,7 @@ class Call {
     return false;
   }
 
-  // What counts over all attempts.
+  // The figures that accumulate over all attempts.
   static Report of_all_attempts(const Report& report) {
     Report sum;
     sum.input = report.input;
@@ -288,7 +288,7 @@ class Call {
     return sum;
   }
 
-  // Asks for no memory, which may be what there is none of.
+  // Allocates nothing, since memory may have run out.
   void go_back_to(Result best) noexcept {
     const Report last = std::move(result_.report);
     result_ = std::move(best);
@@ -331,13 +331,13 @@ class Call {
 
   const Options& options_;
   const std::thread::id caller_ = std::this_thread::get_id();
-  Limits limits_;  // the caller's, or less while something is tried that may be left
+  Limits limits_;  // the caller's, or less time during optional work
   Monitor monitor_;
   const Threads threads_;
   Input input_;
   std::uint64_t seed_ = options_.seed;    // of the next attempt
-  double worst_without_field_ = 0;        // of the last one
-  std::optional<double> end_of_filling_;  // polyhedra, as a time limit
+  double worst_without_field_ = 0;        // of the last attempt
+  std::optional<double> end_of_filling_;  // time limit for all fillings of polyhedra
   Fillings fillings_{limits_, monitor_, threads_};
   const FillAnew fill_anew_{
       [this](const ToFill& asked, const LikelyToFill& likely) { return fill(asked, likely); },

@@ -1,4 +1,4 @@
-// The mesher as the library itself calls it.
+// The mesher for callers within the library.
 #pragma once
 
 #include "classify/parts.h"
@@ -6,10 +6,10 @@
 
 namespace holdfast {
 
-/// `mesh` of a complex whose vertices stay as they are, for parts of a volume: two at one place are a defect.
+/// `mesh` of a complex whose vertices are not merged, for parts of a volume: two at one place are a defect.
 [[nodiscard]] Result mesh_as_given(const Complex& complex, const Options& options);
 
-/// `mesh` of a complex that was pasted together. Fills `parts.overlaps`.
+/// `mesh` of a pasted complex. Fills `parts.overlaps`.
 [[nodiscard]] Result mesh_parts(const Complex& complex, const Options& options, PartsOfComplex& parts);
 
 }  // namespace holdfast

@@ -1,4 +1,4 @@
-// A mesh of a repaired surface that had none: sheets that are some last bits apart become one.
+// Meshes a repaired surface that had no mesh, after joining sheets that are a few last bits apart.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -13,13 +13,13 @@
 namespace holdfast {
 namespace {
 
-/// In last bits of the largest coordinate. Vertices stay where they are only joined.
+/// In last bits of the largest coordinate. Vertices that are only joined do not move.
 struct Attempt {
   double join, weld;
 };
 constexpr std::array kAttempts{Attempt{0x1p3, 0}, Attempt{0x1p6, 0}, Attempt{0x1p6, 0x1p6}};
 
-/// Whether a call ended because it had to; then the mesh has ended so, too.
+/// Whether a limit ended a call; if so, it is the outcome of the mesh, too.
 bool ends(Outcome outcome, const std::string& message, Result& result) {
   if (!is_interruption(outcome)) return false;
   result.outcome = outcome;
@@ -48,7 +48,7 @@ bool mesh_joined(const Complex& given, const Options& options, RepairOptions& re
     Result now;
     try {
       now = mesh(joined.surface.view(), meshing);
-    } catch (const std::invalid_argument&) {  // a size a vertex, say, of which there are others now
+    } catch (const std::invalid_argument&) {  // for instance sizes by vertex, whose number has changed
       continue;
     }
     if (ends(now.outcome, now.message, result)) return false;

@@ -10,7 +10,7 @@ namespace {
 
 using NamesById = std::map<int, std::string>;
 
-/// Ids of regions that mean the same in all parts.
+/// Region ids with one meaning in all parts.
 class RegionIds {
  public:
   explicit RegionIds(std::span<const Surface> parts) {
@@ -24,7 +24,7 @@ class RegionIds {
     return part.regions.empty() && part.names.regions.size() == 1;
   }
 
-  /// The number of a region that a part calls `id`: its own, unless an earlier part has another name there.
+  /// The number of a region that a part calls `id`: that id, unless an earlier part has another name for it.
   int number(int id, const std::string& name) {
     const auto [there, is_new] = meaning_.try_emplace(id, name);
     if (is_new || there->second == name) return id;
@@ -33,7 +33,7 @@ class RegionIds {
     return number;
   }
 
-  /// For a region without an id of its own.
+  /// The number of a region without an id of its own.
   int number_of_part(std::size_t part, const std::string& name) {
     const int id = next_free(static_cast<int>(part) + 1);
     meaning_[id] = name;
@@ -47,7 +47,7 @@ class RegionIds {
   }
 
  private:
-  /// `wanted`, or the next that nothing has.
+  /// Returns `wanted`, or the next unused number.
   int next_free(int wanted) {
     while (!used_.insert(wanted).second) ++wanted;
     return wanted;
@@ -64,7 +64,7 @@ std::vector<NamesById> region_names_apart(std::span<const Surface> parts,
   return io::names_apart(std::move(of_parts), names);
 }
 
-/// The seeds of a part, with ids of the whole.
+/// The seeds of a part, with ids that are valid in the whole.
 std::vector<RegionSeed> seeds_of(const Surface& part, const NamesById& names, RegionIds& ids) {
   std::vector<RegionSeed> seeds;
   std::map<int, int> number;
@@ -104,7 +104,7 @@ NamedParts name_parts(std::span<const Surface> parts, std::span<const std::strin
       pasted.id = ids.number(of_parts[k].begin()->first, of_parts[k].begin()->second);
     named.parts.push_back(std::move(pasted));
   }
-  // Ids of their own go first.
+  // Explicit ids come first.
   for (std::size_t k = 0; k < parts.size(); ++k)
     if (parts[k].regions.empty() && !RegionIds::names_one(parts[k]))
       named.parts[k].id = ids.number_of_part(k, k < names.size() ? names[k] : "");

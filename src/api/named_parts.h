@@ -15,7 +15,7 @@ struct NamedParts {
   std::map<int, std::string> regions;  ///< names of the whole, by id
 };
 
-/// As `paste` documents for region ids and names. Messages use the label of a part if `labels` has one.
+/// Assigns region ids and names as `paste` documents. Messages use the label of a part if `labels` has one.
 [[nodiscard]] NamedParts name_parts(std::span<const Surface> parts, std::span<const std::string> names,
                                     std::span<const std::string> labels);
 

@@ -1,4 +1,4 @@
-// Names of the enumerations: one table each, which both directions read.
+// Names of the enumerations: one table each, used in both directions.
 #include "holdfast/names.h"
 
 #include <array>
@@ -12,7 +12,7 @@ struct Named {
   const char* name;
 };
 template <class Enum>
-Named(Enum, const char*) -> Named<Enum>;  // clang++ 14 deduces none for aggregates
+Named(Enum, const char*) -> Named<Enum>;  // clang++ 14 does not deduce it for aggregates
 
 constexpr std::array kOutcomes{Named{Outcome::done, "done"},
                                Named{Outcome::invalid_input, "invalid_input"},

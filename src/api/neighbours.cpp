@@ -1,4 +1,4 @@
-// Which tetrahedra of a list share a face, from their corners alone.
+// Which tetrahedra of a list share a face, computed from their corners alone.
 #include <algorithm>
 
 #include "holdfast/holdfast.h"
@@ -13,13 +13,13 @@ struct Side {
   std::uint8_t opposite;
 };
 
-/// Sides by their smallest corner: that of corner c from start[c] on.
+/// Faces of tetrahedra, grouped by their smallest corner: those of corner c begin at start[c].
 class Sides {
  public:
   explicit Sides(std::span<const Tetrahedron> tetrahedra) {
     Index most = 0;
     for (const Tetrahedron& t : tetrahedra) most = std::max(most, *std::max_element(t.begin(), t.end()));
-    // A list that names few corners by large numbers is sorted by the corners themselves.
+    // If a list has few corners with large numbers, faces are grouped by sorted corners instead.
     const bool dense = most / 16 <= tetrahedra.size();
     if (!dense) corners_ = corners_of(tetrahedra);
     start_.assign((dense ? std::size_t{most} + 1 : corners_.size()) + 1, 0);
@@ -34,7 +34,7 @@ class Sides {
                 [](const Side& x, const Side& y) { return x.others < y.others; });
   }
 
-  /// Calls visit(one, other) for each face that exactly two sides have.
+  /// Calls visit(one, other) for each face that exactly two tetrahedra have.
   template <class Visit>
   void for_each_pair(Visit&& visit) const {
     for (std::size_t c = 0; c + 1 < start_.size(); ++c)
@@ -72,7 +72,7 @@ class Sides {
       }
   }
 
-  std::vector<Index> corners_;  // that occur, where their numbers are sparse
+  std::vector<Index> corners_;  // that occur, if their numbers are sparse
   std::vector<std::size_t> start_;
   std::vector<Side> sides_;
 };

@@ -11,7 +11,7 @@ namespace holdfast {
 namespace {
 
 struct Component {
-  double volume = 0;  // six times what it encloses
+  double volume = 0;  // six times the enclosed volume
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
             std::numeric_limits<double>::infinity()};
   Point high{-low[0], -low[1], -low[2]};
@@ -35,7 +35,7 @@ struct Component {
   }
 };
 
-/// The component that a cavity belongs to, or itself.
+/// The component that owns a cavity, or the component itself.
 Index owner_of(Index root, const std::map<Index, Component>& components) {
   const Component& cavity = components.at(root);
   if (!(cavity.volume < 0)) return root;

@@ -7,9 +7,9 @@
 
 namespace holdfast {
 
-/// For each facet its part, numbered in the order of their first facets: a connected component, by the
-/// vertices that facets name. One that encloses a negative volume is a cavity: it goes to the smallest
-/// component of positive volume whose box holds its own, if there is one. Indices may be out of range.
+/// For each facet its part, numbered in the order of first facets: a connected component, by the vertices
+/// that facets name. A component of negative volume is a cavity and belongs to the smallest component of
+/// positive volume whose box contains its own, if there is one. Indices may be out of range.
 [[nodiscard]] std::vector<Index> parts_by_components(const Surface& surface);
 
 }  // namespace holdfast

@@ -16,7 +16,7 @@ namespace {
 
 struct Detail {
   Index vertex, facet;
-  double distance;  // computed in floating point; 0 does not count
+  double distance;  // in floating point; 0 is ignored
 };
 
 bool is_sound(const Complex& joined, const Triangle& t) {

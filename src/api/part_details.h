@@ -8,14 +8,14 @@
 
 namespace holdfast {
 
-/// Looks for the vertex that is nearest to a facet of its own part which does not have it. Where that is
-/// within the tolerance, tells it and what to do; else empty. Where there are very many, not all are looked
-/// at.
+/// Finds the vertex nearest to a facet of its own part that does not have it. If its distance is within the
+/// tolerance, returns a text that names it and advises what to do; otherwise an empty one. If there are very
+/// many, not all are examined.
 [[nodiscard]] std::string advice_on_tolerance(const Complex& joined, const PasteResult& of_parts,
                                               double tolerance, const Step& step);
 
-/// That a part was closed and would not be; a tolerance of 0 is none, and `gap` what coordinates are rounded
-/// by.
+/// The text for a part that was closed and would be open. A tolerance of 0 means none; `gap` is the rounding
+/// of coordinates.
 [[nodiscard]] std::string opened_text(const PastedPart& part, double tolerance, double gap);
 
 }  // namespace holdfast

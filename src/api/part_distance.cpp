@@ -1,5 +1,5 @@
-// The least distance of two sets of triangles: a search through two trees of boxes, nearest pairs first, that
-// ends when no pair of boxes is nearer than what was found.
+// The least distance between two sets of triangles: a best-first search through two trees of boxes, which
+// ends when no pair of boxes is nearer than the best pair found.
 #include "api/part_distance.h"
 
 #include <algorithm>
@@ -37,13 +37,13 @@ std::array<Point, 2> between_sides(const Point& a, const Point& b, const Point& 
   return {along(a, u, t), along(c, v, s)};
 }
 
-/// The point of the inside of a triangle below p, or p itself moved to a corner where it is beside.
+/// The projection of p onto a triangle, or the corner a if it falls outside the triangle.
 Point on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
   const Vector u = minus(b, a), v = minus(c, a), w = minus(p, a);
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const double denominator = uu * vv - uv * uv;
   const double t = (vv * uw - uv * vw) / denominator, s = (uu * vw - uv * uw) / denominator;
-  if (!(denominator > 0) || !(t >= 0) || !(s >= 0) || !(t + s <= 1)) return a;  // sides and corners see to it
+  if (!(denominator > 0) || !(t >= 0) || !(s >= 0) || !(t + s <= 1)) return a;  // then a side is nearest
   return along(along(a, u, t), v, s);
 }
 

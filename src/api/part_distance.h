@@ -1,4 +1,4 @@
-// How far parts are from each other.
+// The distance between parts.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ struct NearestPoints {
   std::array<Point, 2> points;  ///< one on a facet of each set
 };
 
-/// The least distance between two sets of facets with finite vertices, in floating point; neither is empty.
-/// `step` is called now and then, and may throw.
+/// The least distance, in floating point, between two nonempty sets of facets with finite vertices. `step` is
+/// called now and then, and may throw.
 [[nodiscard]] NearestPoints nearest_points(std::span<const Point> vertices, std::span<const Triangle> first,
                                            std::span<const Triangle> second,
                                            const std::function<void()>& step);

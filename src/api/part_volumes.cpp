@@ -50,7 +50,7 @@ Boundary boundary_of(const Volume& volume) {
   return boundary;
 }
 
-/// Whether ids say anything.
+/// Whether some region id differs from the default.
 bool has_ids(const Volume& volume) {
   return std::any_of(volume.regions.begin(), volume.regions.end(), [](int id) { return id != 0; });
 }

@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// The faces of a volume that have one tetrahedron.
+/// The faces of a volume with a tetrahedron on one side only.
 struct Boundary {
   std::vector<Index> vertices;        ///< of the volume, ascending: those on the boundary
   std::vector<Triangle> facets;       ///< of the volume's vertices, seen from outside
@@ -19,20 +19,20 @@ struct Boundary {
   std::map<int, int> id_of;           ///< region ids of the volume, in the whole
 };
 
-/// A face as it is seen from outside the tetrahedron.
+/// A face as seen from outside the tetrahedron.
 [[nodiscard]] inline Triangle face_of(const Tetrahedron& t, Index corner) {
   const Triangle f = corners_of_face(t, static_cast<int>(corner));
   return {f[0], f[2], f[1]};
 }
 
-/// Throws std::invalid_argument for indices out of range, faces with more than two tetrahedra, and region ids
-/// of a wrong number.
+/// Throws std::invalid_argument for indices out of range, faces with more than two tetrahedra, and a wrong
+/// number of region ids.
 [[nodiscard]] std::vector<Boundary> boundaries_of(std::span<const Volume> volumes);
 
-/// With the markers that the volume's own facets give.
+/// With the markers of the volume's own facets.
 [[nodiscard]] Surface surface_of(const Volume& volume, const Boundary& boundary);
 
-/// Fills `id_of`, and the names of the regions in the surface: a volume whose tetrahedra have ids keeps them.
+/// Fills `id_of`, and the names of the regions in the surface. A volume whose tetrahedra have ids keeps them.
 void number_regions(std::span<const Volume> volumes, std::span<Boundary> boundaries,
                     std::span<const std::string> part_names, PasteResult& pasted);
 

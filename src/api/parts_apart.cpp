@@ -88,7 +88,7 @@ class Finder {
     return numbers::hypot(gap[0], gap[1], gap[2]);
   }
 
-  /// Pairs of parts in the order of the distances of their boxes, which theirs are not below.
+  /// Tests pairs of parts in the order of their boxes' distances, which are lower bounds.
   std::optional<PartApart> nearest_to(Index set) {
     std::vector<std::tuple<double, Index, Index>> pairs;
     for (Index part = 0; part < facets_.size(); ++part)
@@ -110,7 +110,7 @@ class Finder {
   const PasteResult& pasted_;
   const std::function<void()>& step_;
   std::vector<std::vector<Triangle>> facets_;  // by part
-  DisjointSets sets_;                          // of parts that touch
+  DisjointSets sets_;                          // of touching parts
   std::vector<Box> boxes_;
 };
 

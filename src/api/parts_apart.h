@@ -1,4 +1,4 @@
-// Parts that touch no other.
+// Parts that touch no other part.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace holdfast {
 
-/// Parts touch where they have a vertex in common. Of each set of parts that hang together so, the nearest of
-/// the others; each pair once. `step` is called now and then, and may throw.
+/// Parts touch if they have a common vertex. For each connected set of touching parts, finds the nearest
+/// other one; each pair once. `step` is called now and then, and may throw.
 [[nodiscard]] std::vector<PartApart> find_apart(const PasteResult& pasted, const std::function<void()>& step);
 
 [[nodiscard]] Warning warn_of_apart(const PasteResult& pasted, const PartApart& apart);

@@ -1,4 +1,4 @@
-// The public functions of holdfast/paste.h: parts joined, made to fit, and looked at side by side.
+// The public functions of holdfast/paste.h: parts are joined, made to fit, and compared.
 #include "holdfast/paste.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@
 namespace holdfast {
 namespace {
 
-/// What names no vertex of its own part would name one of the next.
+/// An index out of range in its own part would name a vertex of the next part.
 template <class Entity>
 void require_vertices(const char* what, const std::vector<Entity>& entities, const Surface& part,
                       std::size_t number) {
@@ -71,14 +71,14 @@ double largest_coordinate(const Complex& complex) {
   return most;
 }
 
-/// How near to each other parts may be that are meant to touch: what is left when coordinates are rounded, to
-/// floats if all of them are floats.
+/// The largest gap that rounding of coordinates may leave between touching parts; they are rounded to floats
+/// if all of them are floats.
 double rounding_of(const Complex& complex) {
   constexpr double kMost = std::numeric_limits<float>::max();
   const auto is_float = [](double x) {
     return !std::isfinite(x) || (std::fabs(x) <= kMost && static_cast<double>(static_cast<float>(x)) == x);
   };
-  // Vertices inside a volume, whose surface a part is, say nothing of that.
+  // Vertices inside a volume, of which a part is the surface, are ignored.
   const bool are_floats = std::all_of(complex.facets.begin(), complex.facets.end(), [&](const Triangle& t) {
     return std::all_of(t.begin(), t.end(), [&](Index v) {
       const Point& p = complex.vertices[v];
@@ -89,14 +89,14 @@ double rounding_of(const Complex& complex) {
   return largest_coordinate(complex) * (are_floats ? kFloats : kDoubles);
 }
 
-/// By facet of all parts in turn.
+/// By facet of all parts in order.
 std::vector<Index> parts_of_facets(std::span<const Surface> parts) {
   std::vector<Index> part;
   for (Index k = 0; k < parts.size(); ++k) part.insert(part.end(), parts[k].facets.size(), k);
   return part;
 }
 
-/// A tolerance of half a part's extent leaves nothing of it.
+/// A tolerance of half a part's extent would collapse it.
 void require_smaller_than_parts(const Complex& complex, const PasteResult& result, double tolerance) {
   std::vector<Box> boxes(result.parts.size());
   std::vector<std::uint8_t> is_known(boxes.size(), 0);
@@ -140,9 +140,9 @@ bool is_within(const Complex& joined, double distance, const Step& step, const P
   return checking::is_within_distance(joined, result.surface.view(), claims, step);
 }
 
-/// What is snapped first, then led and cut, may move by the tolerance each time; the sum of these bounds is
-/// up to three times of what moved in all. A smaller one is taken if it can be proved of the result. The sum
-/// is in floating point: where it proves too small, which some last bits make it, larger ones are tried.
+/// Snapping may move points by the tolerance, and then leading and cutting may again; the sum of these bounds
+/// is up to three times the actual distance. A smaller bound is taken if it can be proved for the result. The
+/// sum is computed in floating point: if it fails by some last bits, larger bounds are tried.
 void prove_distance(const Complex& joined, double tolerance, const Step& step, PasteResult& result) {
   constexpr double kRounding = 1 + 0x1p-20;
   const double claimed = result.max_displacement;
@@ -163,7 +163,7 @@ void prove_distance(const Complex& joined, double tolerance, const Step& step, P
   }
 }
 
-/// A tolerance above the size of details makes far more facets than there were, most of which cross.
+/// A tolerance above the size of details multiplies the number of facets, and most of them cross.
 bool is_hopeless(repairing::State& state, const Step& step, const Threads& threads) {
   const std::size_t most = 1000 + 10 * state.input_vertices;
   return repairing::trouble_of(state, step, threads, most).size() > most;
@@ -196,7 +196,7 @@ void judge(const PasteOptions& options, const std::string& advice, const Step& s
   const Result found = mesh_parts(result.surface.view(), meshing, parts);
   result.overlaps = parts.overlaps;
   const bool is_limit = is_interruption(found.outcome);
-  if (!is_limit && !parts.refuses()) return;  // what encloses nothing is pasted, too
+  if (!is_limit && !parts.refuses()) return;  // parts that enclose nothing are pasted, too
   result.outcome = found.outcome;
   result.message = found.message;
   if (!is_limit && !advice.empty()) result.message += "; " + advice;
@@ -214,7 +214,7 @@ void end_without_surface(const PasteOptions& options, const std::string& message
         "details";
 }
 
-/// Cuts what touches or crosses so that it fits; nothing where no such surface is found.
+/// Cuts touching and crossing parts so that they fit; nullopt if no such surface is found.
 std::optional<repairing::Rounded> fit(repairing::State state, const Complex& complex,
                                       const PasteOptions& options, const std::string& advice,
                                       const Step& step, const Threads& threads, PasteResult& result) {
@@ -237,7 +237,8 @@ std::optional<repairing::Rounded> fit(repairing::State state, const Complex& com
   ExactSurface exact;
   RepairOptions arranging;
   static_cast<Limits&>(arranging) = options;
-  // Details below the tolerance are what is in the way, then; that is better told than tried for long.
+  // If there is advice, details below the tolerance are the obstacle; reporting that is better than long
+  // trials.
   const auto trials = advice.empty() ? repairing::Trials::all : repairing::Trials::near_trouble;
   repairing::Rounded rounded =
       repairing::round_arranged(std::move(state), arranging, result.report, exact, step, threads, trials);

@@ -1,9 +1,9 @@
-// Tetrahedral meshes pasted together: their boundaries are made to fit, and only the tetrahedra where these
-// changed are replaced.
+// Pastes tetrahedral meshes together: their boundaries are made to fit, and only the tetrahedra at changed
+// triangles are replaced.
 //
-// What goes are the tetrahedra with a face, a cut edge or a moved corner of a changed triangle. The rest of
-// each region keeps its faces, so that what has to be filled is bounded by these and by the new triangles;
-// the mesher keeps them all.
+// The replaced tetrahedra have a face, a cut edge or a moved corner of a changed triangle. The rest of each
+// region keeps its faces. These and the new triangles bound the polyhedra to fill, and the mesher preserves
+// them all.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -20,17 +20,17 @@
 namespace holdfast {
 namespace {
 
-// A share of the work that is told, the rest being the replacements.
+// Share of the work on boundaries, for progress; the rest are replacements.
 constexpr double kWorkOnBoundaries = 0.5;
 
-/// Tells how much of the whole is done, by a call that does it from the one share to the other.
+/// Maps the progress of a part of the work to that of the whole.
 ProgressFunction part_of(const ProgressFunction& whole, double from, double to) {
   if (!whole) return {};
   return [&whole, from, to](double fraction) { return whole(from + fraction * (to - from)); };
 }
 
-/// The vertices of all volumes in turn, those of the boundary where the pasting has put them, and new ones
-/// behind; where several are at one place, the first stands for them.
+/// The vertices of all volumes in order, with those of the boundary where pasting moved them, followed by new
+/// ones. The first of several vertices at one place represents them.
 class WholeVertices {
  public:
   WholeVertices(std::span<const Volume> volumes, std::span<const Boundary> boundaries,
@@ -59,7 +59,7 @@ class WholeVertices {
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   [[nodiscard]] const Point& point(Index v) const { return points_[v]; }
-  /// Whether pasting moved the vertex of a volume, from its place.
+  /// Whether pasting moved a vertex of a volume.
   [[nodiscard]] bool is_moved(Index k, Index of_volume) const {
     return moved_.count(first_[k] + of_volume) != 0;
   }
@@ -84,12 +84,12 @@ class WholeVertices {
   std::vector<Point> points_;
   std::vector<Index> first_;       // by volume, its first vertex
   std::vector<Index> of_surface_;  // by vertex of the pasted surface
-  std::vector<Index> same_as_;     // by vertex, the first at its place
+  std::vector<Index> same_as_;     // by vertex, the first one at its place
   std::unordered_set<Index> moved_;
 };
 
-/// The pasted surface in the whole, and what became of each facet of the boundaries, which are counted in
-/// turn.
+/// The pasted surface in the whole, and the children of each facet of the boundaries, which are counted in
+/// order.
 class WholeFaces {
  public:
   struct Child {
@@ -111,11 +111,11 @@ class WholeFaces {
 
   [[nodiscard]] const std::vector<Triangle>& all() const { return all_; }
   [[nodiscard]] bool has_edge(const Segment& edge) const { return edges_.count(ascending(edge)) != 0; }
-  /// Of facet f of volume k's boundary.
+  /// The children of facet f of volume k's boundary.
   [[nodiscard]] const std::vector<Child>& children(Index k, Index f) const {
     return children_[pasted_.parts[k].first_facet + f];
   }
-  /// Whether this facet, in the whole, is still one face.
+  /// Whether this facet is still a single face in the whole.
   [[nodiscard]] bool is_kept(Index k, Index f, const Triangle& t) const {
     const auto& faces = children(k, f);
     return faces.size() == 1 && ascending(all_[faces[0].face]) == ascending(t);
@@ -128,7 +128,7 @@ class WholeFaces {
   std::set<Segment> edges_;
 };
 
-/// What pasting changes of one volume.
+/// What pasting changes in one volume.
 struct VolumeChange {
   std::set<Index> faces;           ///< of its boundary: 4 * tetrahedron + face
   std::vector<std::uint8_t> goes;  ///< by tetrahedron
@@ -171,7 +171,7 @@ VolumeChange change_of(Index k, const Volume& volume, const Boundary& boundary, 
   return change;
 }
 
-/// Makes the volume of a pasted boundary.
+/// Makes the volume inside a pasted boundary.
 class Pasting {
  public:
   Pasting(std::span<const Volume> volumes, std::span<const Boundary> boundaries, const PasteOptions& options,
@@ -201,7 +201,7 @@ class Pasting {
  private:
   [[nodiscard]] const Surface& surface() const { return result_.boundary.surface; }
   [[nodiscard]] int new_id(Index k, int region) const { return boundaries_[k].id_of.at(region); }
-  /// The share of the work once so many regions are filled again.
+  /// The share of the work done after `refilled` regions.
   [[nodiscard]] double done(std::size_t refilled) const {
     return kWorkOnBoundaries +
            (1 - kWorkOnBoundaries) * static_cast<double>(refilled) / static_cast<double>(refills_);
@@ -225,10 +225,10 @@ class Pasting {
     result_.origin.push_back(origin);
   }
 
-  /// The faces round what goes, seen from outside it.
+  /// The faces around the removed tetrahedra, seen from outside them.
   [[nodiscard]] std::vector<Triangle> hull_of(Index k, int region, const VolumeChange& change) const {
     const Volume& volume = volumes_[k];
-    std::map<Triangle, Triangle> open;  // by ascending corners of the volume
+    std::map<Triangle, Triangle> open;  // by sorted corners
     std::vector<Triangle> hull;
     std::map<Index, Index> facet_at;  // by face
     for (Index f = 0; f < boundaries_[k].face.size(); ++f) facet_at[boundaries_[k].face[f]] = f;
@@ -261,13 +261,13 @@ class Pasting {
     }
   }
 
-  /// What a polyhedron to be filled is, and its vertices in the whole.
+  /// A polyhedron to fill, and the number of its vertices in the whole.
   struct Cavity {
     Surface surface;
     std::vector<Index> whole;
   };
 
-  /// What goes of a region, bounded by the faces round it; vertices inside stay, too.
+  /// The removed part of a region, bounded by the faces around it; vertices inside are kept.
   [[nodiscard]] Cavity cavity_of(Index k, int region, const VolumeChange& change) const {
     Cavity cavity;
     std::unordered_map<Index, Index> local;
@@ -312,7 +312,7 @@ class Pasting {
     return true;
   }
 
-  /// The boundary's, then those that the volumes list inside.
+  /// The facets of the boundary, then those that the volumes list inside.
   void take_facets() {
     Volume& volume = result_.volume;
     volume.facets = faces_.all();
@@ -372,7 +372,7 @@ PastedVolumes paste(std::span<const Volume> volumes, const PasteOptions& given,
   for (std::size_t k = 0; k < volumes.size(); ++k) surfaces.push_back(surface_of(volumes[k], boundaries[k]));
   PasteOptions of_boundaries = options;
   of_boundaries.progress = part_of(options.progress, 0, kWorkOnBoundaries);
-  of_boundaries.overlap = Overlap::refuse;  // the tetrahedra of both would stay
+  of_boundaries.overlap = Overlap::refuse;  // the tetrahedra of both parts would remain
   result.boundary = paste(surfaces, of_boundaries, names);
   result.outcome = result.boundary.outcome;
   result.message = result.boundary.message;

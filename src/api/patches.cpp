@@ -1,4 +1,4 @@
-// Smooth patches of a surface: facets joined across edges that are flat enough.
+// Smooth patches of a surface: facets joined across nearly flat edges.
 #include "holdfast/patches.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Normal minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1],
 
 double dot(const Normal& a, const Normal& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// Of length 1, or nothing where doubles tell none.
+/// The unit normal, or nullopt if it cannot be computed in doubles.
 std::optional<Normal> normal_of(const Surface& surface, const Triangle& t) {
   const Normal u = minus(surface.vertices[t[1]], surface.vertices[t[0]]),
                v = minus(surface.vertices[t[2]], surface.vertices[t[0]]);
@@ -41,7 +41,7 @@ std::optional<Normal> normal_of(const Surface& surface, const Triangle& t) {
   return n;
 }
 
-/// The sides of the facets that take part, those of an edge together.
+/// The sides of the given facets, grouped by edge.
 std::vector<SideOfFacet> sides_of(const Surface& surface, const std::vector<Index>& facets) {
   const std::vector<std::int64_t> place = vertex_map(surface.view());
   const auto place_of = [&](Index v) {
@@ -65,7 +65,7 @@ class Patches {
  public:
   Patches(const Surface& surface, double degrees, const std::vector<Index>& facets)
       : surface_(surface), least_(numbers::cos(degrees * kPi / 180)), sets_(surface.facets.size()) {
-    const std::vector<SideOfFacet> sides = sides_of(surface, facets);  // which also looks at the indices
+    const std::vector<SideOfFacet> sides = sides_of(surface, facets);  // this also checks the indices
     normals_.resize(surface.facets.size());
     for (const Index f : facets) normals_[f] = normal_of(surface, surface.facets[f]);
     for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
@@ -90,7 +90,7 @@ class Patches {
         if (Neighbour& known = neighbour_[from]; length > known.length) known = {length, to};
       return;
     }
-    // Facets that are turned alike go along their edge in opposite directions.
+    // Facets with one orientation pass their common edge in opposite directions.
     const double turn = a.forward != b.forward ? 1 : -1;
     if (turn * dot(*normals_[a.facet], *normals_[b.facet]) > least_) sets_.unite(a.facet, b.facet);
   }
@@ -99,7 +99,7 @@ class Patches {
   double least_;  // cosine of the largest angle
   DisjointSets sets_;
   std::vector<std::optional<Normal>> normals_;
-  std::map<Index, Neighbour> neighbour_;  // of facets without a normal, at the longest edge
+  std::map<Index, Neighbour> neighbour_;  // of facets without a normal: across the longest edge
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The public functions of holdfast/plane.h: limits and outcomes round the work of src/plane.
+// The public functions of holdfast/plane.h: limits and outcomes around the work of src/plane.
 #include "holdfast/plane.h"
 
 #include <cmath>

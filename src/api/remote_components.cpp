@@ -20,9 +20,9 @@
 namespace holdfast {
 namespace {
 
-constexpr int kReach = 300;  // 2^-300 .. 2^300: squares and cubes of lengths neither over- nor underflow
+constexpr int kReach = 300;  // 2^-300 .. 2^300: squares and cubes of lengths do not overflow or underflow
 
-// As the tetrahedron sees it: (f0 f1 f2 x) is positive for x inside.
+// From inside the tetrahedron: (f0 f1 f2 x) is positive for x inside.
 Triangle face_of(const Tetrahedron& t, std::size_t i) { return corners_of_face(t, static_cast<int>(i)); }
 
 class RemoteComponents {
@@ -49,7 +49,7 @@ class RemoteComponents {
   }
 
  private:
-  // Exponent of the largest side of the box round the points.
+  // The exponent of the largest side of the points' box.
   [[nodiscard]] static std::optional<std::int64_t> extent(std::span<const Point> points) {
     double most = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -92,7 +92,7 @@ class RemoteComponents {
     for (auto& [root, tets] : by_root) components_.push_back(std::move(tets));
   }
 
-  // The component's own facets face outwards, so that what they enclose is kept, and nothing in its holes.
+  // The component's facets face outwards, so that its inside is kept and its holes are not.
   Surface boundary_of(const std::vector<std::size_t>& tets, std::vector<Index>& vertices) const {
     std::map<Index, Index> local;
     std::map<Triangle, std::vector<Triangle>> faces;
@@ -147,7 +147,7 @@ class RemoteComponents {
     fresh_.push_back({id, std::move(vertices), std::move(found)});
   }
 
-  // What stays keeps its order; then come the new tetrahedra. Vertices that nothing holds any more go.
+  // Kept tetrahedra stay in order, followed by the new ones. Unused vertices are removed.
   void join() {
     std::vector<Point> points = volume_.vertices;
     std::vector<Tetrahedron> tets;
@@ -197,7 +197,7 @@ class RemoteComponents {
 
   struct Fresh {
     int id;
-    std::vector<Index> vertices;  // of the whole, by number in the result
+    std::vector<Index> vertices;  // of the whole, by vertex of the result
     Result result;
   };
 
@@ -206,7 +206,7 @@ class RemoteComponents {
   Result& result_;
   Volume& volume_;
   const int scale_;
-  std::vector<std::vector<std::size_t>> components_;  // their tetrahedra
+  std::vector<std::vector<std::size_t>> components_;  // the tetrahedra of each
   std::set<std::size_t> gone_;
   std::vector<Fresh> fresh_;
 };

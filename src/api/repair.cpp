@@ -1,4 +1,4 @@
-// The public function of holdfast/repair.h: limits and outcomes round the work of src/repair.
+// The public function of holdfast/repair.h: limits and outcomes around the work of src/repair.
 #include "holdfast/repair.h"
 
 #include <chrono>
@@ -47,8 +47,7 @@ void end(RepairResult& result, Outcome outcome, std::string message) {
   result.message = std::move(message);
 }
 
-/// The power of two that brings finite vertices near to one. The exact arrangement is that of the surface as
-/// it is.
+/// The power of two that scales finite vertices to near one. An exact arrangement is not scaled.
 int scale_of(const Complex& complex, const RepairOptions& options) {
   if (options.exact) return 0;
   std::vector<Point> finite;
@@ -57,8 +56,7 @@ int scale_of(const Complex& complex, const RepairOptions& options) {
   return choose_scale(finite);
 }
 
-/// Undoes a scale. False where a point or distance is not the same number times a power of two then, since it
-/// is denormal.
+/// Undoes a scale. Returns false if a point or distance becomes denormal and loses bits.
 bool scale_back(repairing::Rounded& rounded, int k) {
   for (Point& p : rounded.state.vertices) {
     const Point before = p;
@@ -71,8 +69,8 @@ bool scale_back(repairing::Rounded& rounded, int k) {
   return std::ldexp(rounded.displacement, k) == before;
 }
 
-/// Filters of signs are for products that neither over- nor underflow; where they do, each sign would take
-/// exact arithmetic.
+/// Sign filters need products that do not overflow or underflow; otherwise each sign would need exact
+/// arithmetic.
 repairing::Rounded round_scaled(const Complex& complex, repairing::State state, const RepairOptions& options,
                                 RepairResult& result, const Step& step, const Threads& threads) {
   if (const int k = scale_of(complex, options); k != 0) {
@@ -101,7 +99,8 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
     return end(result, Outcome::not_representable,
                "no doubles were found for the new points with which the surface is valid");
   if (welded > 0) {
-    // What is thinner than the tolerance becomes a line, and is lost where nothing else has it.
+    // Welding turns what is thinner than the tolerance into a line, which is lost unless other facets contain
+    // it.
     const double most = rounded.displacement + welded;
     rounded.displacement =
         repairing::covered_within(rounded.state, repairing::state_of(complex), most, step).value_or(most);

@@ -13,7 +13,7 @@
 
 namespace holdfast {
 
-/// Calls work(monitor) and fills the members that every report has.
+/// Calls work(monitor), and fills the members that all these reports share.
 template <class Work>
 void run_within(const Limits& limits, const ProgressFunction& progress, RepairResult& result, Work&& work) {
   const auto begin = std::chrono::steady_clock::now();

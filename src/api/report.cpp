@@ -34,7 +34,7 @@ Report::Shape describe_shape(const ShapeCounts& counts) {
 
 Stopwatch::~Stopwatch() {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  // Memory may be what ended the stage. Then there may be none for a new entry, and no one to catch it.
+  // The stage may have ended because memory ran out. Then a new entry may throw, and nothing could catch it.
   try {
     report_.seconds[key_] += seconds;
   } catch (const std::bad_alloc&) {

@@ -10,10 +10,10 @@
 
 namespace holdfast {
 
-/// Counts of the input. `table` is null while nobody knows whether the indices are in range.
+/// Counts of the input. `table` is null while the indices may be out of range.
 [[nodiscard]] Report::Input describe_input(const Complex& complex, const SegmentTable* table);
 
-/// The shape of the elements of a volume, and the target that was found for its facets.
+/// The shape of a volume's elements, and the target for its facets.
 [[nodiscard]] Report::Elements describe_elements(const VolumeShape& shape, double target);
 [[nodiscard]] Report::Shape describe_shape(const ShapeCounts& counts);
 
@@ -33,7 +33,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// One sentence on how and where a run ended before its time.
+/// One sentence on how and where a run ended early.
 [[nodiscard]] std::string interruption_message(Outcome outcome, Stage stage, const Options& options);
 
 }  // namespace holdfast

@@ -9,10 +9,10 @@
 namespace holdfast {
 namespace {
 
-constexpr int kUsual = 64;  // 2^-64 .. 2^64: products of sixteen differences neither over- nor underflow
-constexpr int kRoom = 160;  // bits below the last one of any coordinate that added vertices may have
+constexpr int kUsual = 64;  // 2^-64 .. 2^64: products of sixteen differences do not overflow or underflow
+constexpr int kRoom = 160;  // bits that added vertices may have below the last bit of any coordinate
 
-// The exponent of the last bit that is set, of all coordinates but zeros.
+// The exponent of the last set bit of all nonzero coordinates.
 int least_bit(std::span<const Point> vertices) {
   int least = 1024;
   for (const Point& p : vertices)
@@ -26,8 +26,8 @@ int least_bit(std::span<const Point> vertices) {
 
 }  // namespace
 
-// Larger numbers are always exact. Smaller ones are while the last bit of each is no denormal's; below it
-// there must be room for the doubles that would be lost.
+// Scaling up is always exact. Scaling down is exact while no last bit becomes denormal, and must leave room
+// below it for the bits of added vertices.
 int choose_scale(std::span<const Point> vertices) {
   double largest = 0;
   for (const Point& p : vertices)

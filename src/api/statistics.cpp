@@ -22,7 +22,7 @@ using Groups = std::vector<Statistics::Group>;
 
 double area_of(const Point& a, const Point& b, const Point& c) { return length(cross(b - a, c - a)) / 2; }
 
-/// Groups by id, found as ids come.
+/// Groups by id, created on first use.
 class ById {
  public:
   Statistics::Group& operator[](int id) {
@@ -87,8 +87,8 @@ class Counter {
     counts_.regions = regions.take(volume.names.regions);
   }
 
-  /// The signed volume, if each side of a facet has another one turned against it: then the facets bound it.
-  /// Vertices at one place are one, as in a mesh.
+  /// Adds the signed volume if each side of a facet has an opposite one: then the facets bound a volume.
+  /// Vertices at one place count as one, as in a mesh.
   void add_enclosed(const Surface& surface, Statistics& counts) const {
     const std::vector<std::int64_t> map = vertex_map(surface.view());
     const auto place = [&](Index v) { return map.empty() ? v : static_cast<Index>(map[v]); };
@@ -98,7 +98,7 @@ class Counter {
     for (const Triangle& f : surface.facets) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = place(f[k]), b = place(f[(k + 1) % 3]);
-        if (a == b) continue;  // without length
+        if (a == b) continue;  // a side of length 0
         const Index edge = edges.of(a, b);
         balance.resize(edges.edges().size());
         balance[edge] += a < b ? 1 : -1;
@@ -111,7 +111,7 @@ class Counter {
     if (counts.closed) counts.volume = volume;
   }
 
-  /// What a surface and a volume have alike.
+  /// The statistics common to a surface and a volume.
   template <typename Mesh>
   [[nodiscard]] Statistics finish(const Mesh& mesh) {
     add_lower(mesh.facets, mesh.facet_markers, kFacetEdges, mesh.names.facets, counts_.facet_markers,

@@ -7,7 +7,7 @@
 
 namespace holdfast {
 
-/// Whether a part of a facet is oriented as the facet, by their normals.
+/// Whether a part of a facet has the facet's orientation, by their normals.
 [[nodiscard]] inline bool turned_alike(std::span<const Point> points, const Triangle& part,
                                        std::span<const Point> before, const Triangle& facet) {
   const auto normal = [](std::span<const Point> of, const Triangle& t) {

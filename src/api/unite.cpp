@@ -1,8 +1,9 @@
 // The union of the parts of a surface.
 //
-// The mesher tells into which regions the arrangement cuts space, and which lie on either side of each facet.
-// For one component of the input, all other facets are air: regions that they alone divide are one. What its
-// own facets divide then has a winding number if they are turned consistently, and else is inside or outside.
+// The mesher finds the regions of the arrangement, and which ones lie on either side of each facet. For one
+// component of the input, all other facets are air: regions separated only by them are one. The regions that
+// its own facets separate have a winding number if the facets are consistently oriented; otherwise each
+// region is inside or outside.
 #include "api/unite.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 namespace holdfast {
 namespace {
 
-/// The connected components of the input's facets, by the places of their corners.
+/// The connected components of the input's facets, where corners at one place are one.
 std::vector<Index> components_of(const Complex& input) {
   const std::vector<Index> first = first_at_places(input.vertices);
   DisjointSets sets(input.vertices.size());
@@ -32,13 +33,13 @@ std::vector<Index> components_of(const Complex& input) {
   return component;
 }
 
-/// Regions in front of and behind facets, numbered from 0, which is the outside.
+/// The regions in front of and behind each facet; 0 is the outside.
 struct Division {
   std::vector<std::array<Index, 2>> sides;
   std::size_t regions = 1;
 };
 
-/// The box is larger than all else: the vertex furthest to the left is a corner of it.
+/// The box is larger than everything else, so the leftmost vertex is one of its corners.
 int outside_of(const Volume& volume) {
   std::size_t best = 0;
   for (std::size_t t = 0; t < volume.tetrahedra.size(); ++t) {
@@ -67,7 +68,7 @@ Division division_of(const Result& result) {
   return division;
 }
 
-/// A facet of the arrangement as part of a component's facet.
+/// The regions on both sides of a facet of the arrangement that is part of a component's facet.
 struct Wall {
   Index front, back;
   bool operator<(const Wall& other) const {
@@ -76,8 +77,7 @@ struct Wall {
   bool operator==(const Wall&) const = default;
 };
 
-/// Which regions a component keeps. `airs` are pairs of regions with a facet between them that is not its
-/// own.
+/// The regions that a component keeps. `airs` are pairs of regions separated by a facet of another component.
 std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<Wall>& walls,
                                       const std::vector<Wall>& airs) {
   DisjointSets sets(regions);
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<Wal
   for (const Wall& wall : walls) {
     const Index front = sets.root(wall.front), back = sets.root(wall.back);
     if (front == back) continue;
-    steps[front].emplace_back(back, 1);  // behind a facet that looks outward is the inside
+    steps[front].emplace_back(back, 1);  // the inside is behind a facet that faces outwards
     steps[back].emplace_back(front, -1);
   }
   bool consistent = true;
@@ -152,7 +152,7 @@ Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& h
 
   const std::vector<Index> component = components_of(input);
   std::map<Index, std::vector<Wall>> walls;       // by component
-  std::map<Wall, std::vector<Index>> components;  // of the facets between two regions, intersected
+  std::map<Wall, std::vector<Index>> components;  // by the two regions that a facet separates, intersected
   std::vector<Index> component_at(state.vertices.size(), 0);
   for (std::size_t f = 0; f < state.facets.size(); ++f)
     for (const Index p : state.facet_parents.of(f))
@@ -167,7 +167,7 @@ Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& h
       walls[component[p]].push_back(alike ? Wall{front, back} : Wall{back, front});
     }
     sort_unique(own);
-    if (own.empty()) {  // fills a hole of the component that has its corners
+    if (own.empty()) {  // then it fills a hole of the component that has its corners
       const Index c = component_at[state.facets[f][0]];
       own.push_back(c);
       walls[c].push_back({front, back});

@@ -46,7 +46,7 @@ void require_sensible(const Volume& volume, const UntangleOptions& options) {
   if (volume.vertices.size() > kMostVertices) throw std::length_error("more than 2^28 vertices are too many");
 }
 
-// Free vertices may be anywhere, but must be somewhere: those that are not finite go to the middle.
+// Free vertices may lie anywhere, but need a position: vertices that are not finite move to the middle.
 std::vector<Point> finite_positions(const Volume& volume, const std::vector<bool>& fixed) {
   const auto finite = [](const Point& p) {
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
@@ -64,7 +64,7 @@ std::vector<Point> finite_positions(const Volume& volume, const std::vector<bool
   return points;
 }
 
-// That of the vertices that stay; the others may be anywhere.
+// The scale of the fixed vertices; the others may lie anywhere.
 int scale_of_fixed(const Volume& volume, const std::vector<bool>& fixed) {
   std::vector<Point> points;
   for (std::size_t v = 0; v < fixed.size(); ++v)
@@ -72,7 +72,7 @@ int scale_of_fixed(const Volume& volume, const std::vector<bool>& fixed) {
   return choose_scale(points);
 }
 
-// A volume and its boundary with the constrained vertices first, as `check` wants them.
+// A volume and its boundary with the constrained vertices first, as `check` expects them.
 struct Ordered {
   Volume volume;
   Surface boundary;
@@ -133,7 +133,7 @@ class Untangling {
   }
 
  private:
-  // The monitor's options: limits, and a callback that tells the step and how much is done.
+  // The monitor's options: limits, and a callback that reports the step and the progress.
   Options limits() {
     Options limits;
     static_cast<Limits&>(limits) = options_;
@@ -219,13 +219,13 @@ class Untangling {
 
   [[nodiscard]] const Volume& scaled_volume() const { return scale_ == 0 ? volume_ : scaled_; }
 
-  // The mesher is given what comes out, and finds a scale of its own.
+  // The mesher gets unscaled positions and chooses its own scale.
   Filled fill(Complex complex) {
     const std::vector<Point> points = scaled(complex.vertices, -scale_);
     complex.vertices = points;
     Options options;
     options.keep = Keep::bounded;
-    options.drop_outside = true;  // free vertices that lie outside
+    options.drop_outside = true;  // free vertices may lie outside
     options.seed = options_.seed;
     if (options_.time_limit > 0) options.time_limit = std::max(1e-6, options_.time_limit - seconds());
     options.memory_limit = options_.memory_limit;
@@ -298,7 +298,7 @@ class Untangling {
     result_.volume = std::move(assembled.volume);
   }
 
-  // What did not move is as it was, also where scaling it down has rounded it.
+  // A vertex that did not move keeps its coordinates, even if scaling down rounded them.
   void undo_scale(std::vector<Point>& points) const {
     for (std::size_t v = 0; v < points.size(); ++v) {
       const bool stands = v < volume_.vertices.size() && points[v] == scaled_.vertices[v];
@@ -314,9 +314,9 @@ class Untangling {
   Watch watch_;
   Connectivity connectivity_;
   int scale_ = 0;  // the tangle is the volume times 2^scale_
-  Volume scaled_;  // as large, if that is not 0
+  Volume scaled_;  // the volume at that scale, if scale_ is not 0
   std::optional<Tangle> tangle_;
-  std::size_t at_first_ = 0;  // tetrahedra that were not positive
+  std::size_t at_first_ = 0;  // number of tetrahedra that were not positive
   UntangleResult result_;
 };
 

@@ -8,18 +8,18 @@
 namespace holdfast {
 namespace {
 
-// Larger ones take memory, and no optimisation makes them good.
+// Larger meshes take much memory, and no optimisation makes them good.
 constexpr std::size_t kMostCompared = 300'000;  // tetrahedra
-// There is little to thin out where so many times as many are asked for.
+// If this many times as many elements are asked for, there is hardly anything to thin out.
 constexpr double kManyTimes = 8;
-// Of meshes of so many tetrahedra the optimisation changes a small part, so that the mean Q does not halve.
-// Of smaller ones it may change much, yet no such share of elements below 10 degrees goes.
+// In meshes above kManyTets the optimisation changes only a small part, so the mean Q does not halve. In
+// smaller ones above kTets it may change much, but not remove such a share of elements below 10 degrees.
 constexpr std::size_t kManyTets = 10'000, kTets = 500;
 constexpr double kManyBelow10 = 0.3;
-// More work takes off such a part of what the mean Q is above that of elements none of which is bad.
+// More work removes this part of the excess of the mean Q over that of a mesh without bad elements.
 constexpr double kMended = 0.3, kWithoutBad = 3;
 
-// Whether the optimisation will not make a mesh better somewhere than one with field points that has no
+// Whether no figure of the optimised mesh can be better than those of a mesh with field points that has no
 // element below 10 degrees.
 bool is_plainly_worse(const Figures& before, const Figures& with_field) {
   if (with_field.below_10_deg() > 0 || before.mean_quality() <= 2 * with_field.mean_quality()) return false;

@@ -1,5 +1,5 @@
-// What a mesh would be without field points, as --fill makes it: the least that field points have to be worth
-// where it is the surface that decides on the number of elements.
+// The mesh without field points, as --fill makes it: the standard that a mesh with field points must reach if
+// the surface decides on the number of elements.
 #pragma once
 
 #include <optional>
@@ -11,27 +11,27 @@ namespace holdfast {
 
 class WithoutField {
  public:
-  /// Whether the user leaves sizes to the surface, or limits them for whole regions, so that there may be
-  /// something to compare.
+  /// Whether the user leaves sizes to the surface, or limits them for whole regions only, so that a
+  /// comparison may be useful.
   [[nodiscard]] static bool is_asked_for(const Options& options);
-  /// Copies the mesh, which has no field points yet. Nothing of a very large one, nor where the limits ask
-  /// for many more elements than it has.
+  /// Copies the mesh, which has no field points yet, unless it is very large or the limits ask for many more
+  /// elements than it has.
   WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
                double elements_asked_for);
 
-  /// Whether there is anything to compare with.
+  /// Whether there is a mesh to compare with.
   [[nodiscard]] bool is_given() const { return elements() > 0; }
   [[nodiscard]] std::size_t elements() const { return before_.elements(); }
-  /// Regular ones as large as the limits are so many.
+  /// The number of regular elements of the requested sizes.
   [[nodiscard]] double elements_asked_for() const { return asked_for_; }
-  /// Whether some figure of the mesh with field points is worse than of this one. The first call optimises
-  /// this one, unless it is plain that nothing will be.
+  /// Whether some figure of the mesh with field points is worse than this mesh's. The first call optimises
+  /// this mesh, unless its figures are certain to stay worse.
   [[nodiscard]] bool is_better_somewhere(const Figures& with_field);
-  /// Whether more work on a mesh with field points, some figure of which is worse, may mend that.
+  /// Whether more work may repair the figures of a mesh with field points that are worse.
   [[nodiscard]] bool is_within_reach(const Figures& with_field) const;
-  /// Of the optimised one; 0 without.
+  /// Of the optimised mesh; 0 without one.
   [[nodiscard]] double worst_quality() const { return optimised_ ? optimised_->worst_quality() : 0; }
-  /// Puts it, optimised, in the place of the mesh with field points.
+  /// Replaces the mesh with field points by the optimised one.
   void take(BoxMesh& box, Division& division);
 
  private:
@@ -40,8 +40,8 @@ class WithoutField {
   Division division_;
   Vertex first_free_ = 0;
   double asked_for_;
-  Figures before_;                    // the optimisation
-  std::optional<Figures> optimised_;  // then
+  Figures before_;                    // before the optimisation
+  std::optional<Figures> optimised_;  // after the optimisation
 };
 
 }  // namespace holdfast
