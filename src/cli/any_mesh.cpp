@@ -76,7 +76,8 @@ AnyTarget write_any(FilesOfRun& files, const char* option, const fs::path& path,
   const std::string kind = format_of(path, format);
   AnyTarget target;
   target.holds_surfaces = is_one_of(surface_formats(), kind);
-  // What is known neither as the one nor as the other is refused as a volume, with what there is.
+  // A format known neither for surfaces nor for volumes is refused as a volume format, which lists those
+  // known.
   target.holds_volumes = !target.holds_surfaces || is_one_of(volume_formats(), kind);
   target.options = target.holds_volumes ? files.write_volume(option, path, format, true).options
                                         : files.write_surface(option, path, format);

@@ -19,16 +19,16 @@ struct AnyMesh {
   [[nodiscard]] Names& names() { return is_volume ? volume.names : surface.names; }
 };
 
-/// Whether the format holds volumes; points of a .node alone are a surface without triangles.
+/// Whether the format holds volumes; a .node alone is a surface without triangles.
 [[nodiscard]] bool may_be_volume(const std::filesystem::path& path, const std::string& format);
 
 /// The files that `read_any` reads, for `files`. Throws UsageError.
 void read_any(FilesOfRun& files, const std::filesystem::path& path, const std::string& format);
 
-/// Reads a volume where there are tetrahedra, else a surface. Pipes are read once. Throws FileError.
+/// Reads a volume if the file has tetrahedra, otherwise a surface. Reads pipes once. Throws FileError.
 [[nodiscard]] AnyMesh read_any(const std::filesystem::path& path, const ReadOptions& options);
 
-/// Where to write, and whether the format holds volumes or else surfaces alone. Throws UsageError.
+/// Where to write, and whether the format holds volumes or only surfaces. Throws UsageError.
 struct AnyTarget {
   WriteOptions options;
   bool holds_volumes = false, holds_surfaces = false;

@@ -1,5 +1,5 @@
-// `holdfast batch`: many parts, a process each. Written in Python, where executors of other machines are at
-// hand (python/holdfast/_batch.py); here the program hands over to it.
+// `holdfast batch`: many parts, one process each. The command is written in Python, where executors for other
+// machines exist (python/holdfast/_batch.py); the program hands over to it.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ std::string python() {
   return fs::exists(system_wide) ? system_wide : "python3";
 }
 
-// A build folder holds the package beside the program.
+// In a build folder the package is beside the program.
 void find_package_beside(const fs::path& program) {
   const fs::path folder = program.parent_path() / "python";
   if (!fs::exists(folder / "holdfast" / "__init__.py")) return;

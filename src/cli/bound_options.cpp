@@ -14,7 +14,7 @@
 namespace holdfast::cli {
 namespace {
 
-/// V, or REGION=V.
+/// V or REGION=V.
 struct Bound {
   std::string region;  ///< empty: everywhere
   double volume;

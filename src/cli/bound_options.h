@@ -23,14 +23,14 @@ struct BoundArguments {
 
 void add_bounds(CLI::App& command, BoundArguments& arguments);
 
-/// Puts the bounds into the options. A region is named by its id in the mesh, or by its name: call it when
-/// the names of the files are there. Throws UsageError.
+/// Sets the bounds in the options. A region is given by its id in the mesh or by its name, so the names in
+/// the files must be known. Throws UsageError.
 void set_bounds(const BoundArguments& arguments, const Names& names, Options& options);
 
 /// Throws UsageError for invalid bounds; reads no file.
 void require_bounds(const BoundArguments& arguments);
 
-/// How well the bounds are met, for the summary of a run; empty without bounds.
+/// How well the bounds are kept, for the summary of a run; empty without bounds.
 [[nodiscard]] std::string bounds_text(const Options& options, const Report& report);
 
 }  // namespace holdfast::cli

@@ -1,4 +1,4 @@
-// `holdfast check`: does a volume keep the promise for a surface?
+// `holdfast check`: whether a volume keeps the promise for a surface.
 #include "holdfast/check.h"
 
 #include <fmt/core.h>
@@ -20,7 +20,7 @@ namespace holdfast::cli {
 namespace {
 
 struct CheckArguments {
-  std::vector<std::filesystem::path> files;  // surfaces, then the volume
+  std::vector<std::filesystem::path> files;  // the surfaces, then the volume
   std::filesystem::path report, parents, verdict, html;
   std::string input_format, format;
   double tolerance = 0;
@@ -52,7 +52,7 @@ void write_html(const CheckArguments& arguments, const Limits& limits, const Sur
   page.write();
 }
 
-/// Or would be if it were there.
+/// Whether a path is a folder, or looks like one that does not exist.
 bool is_meant_as_folder(const std::filesystem::path& file) {
   return std::filesystem::is_directory(file) || (!std::filesystem::exists(file) && !file.has_extension());
 }

@@ -12,7 +12,7 @@
 namespace holdfast::cli {
 namespace {
 
-/// What was found of a part or of the whole, for the listing and the report.
+/// The findings for a part or the whole, for the listing and the report.
 struct Findings {
   std::string listing;
   Json parts = Json::array(), fits = Json::array();
@@ -39,7 +39,7 @@ std::string broken_rules(const CheckResult& result) {
   return text;
 }
 
-/// A part that is missing, another's, or of an older division is found here.
+/// This also finds a part that is missing, foreign, or from an older division.
 void check_part(const Manifest& manifest, std::size_t k, const CheckOptions& options, FitChecker& fits,
                 Findings& findings) {
   const std::string file = manifest.parts[k].volume.string();
@@ -64,7 +64,7 @@ Findings examine(const Manifest& manifest, const CheckOptions& options) {
     const Surface whole = whole_of(manifest, options);
     FitChecker fits(whole.view(), manifest.outside_dropped);
     for (std::size_t k = 0; k < manifest.parts.size(); ++k) check_part(manifest, k, options, fits, findings);
-    // Of parts that are broken nothing follows for the whole.
+    // Broken parts say nothing about the whole.
     if (findings.hold)
       for (const Fit& fit : fits.finish()) findings.add_fit(fit);
   } catch (const Stale& stale) {

@@ -13,8 +13,8 @@ struct FolderCheck {
   bool quiet = false;
 };
 
-/// Checks each part with its own surface and then whether they fit; returns the exit code. Throws FileError
-/// for a folder without a manifest that can be read.
+/// Checks each part against its own surface and then whether they fit; returns the exit code. Throws
+/// FileError for a folder without a readable manifest.
 [[nodiscard]] int check_folder(const FolderCheck& what);
 
 }  // namespace holdfast::cli

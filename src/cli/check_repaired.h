@@ -1,4 +1,4 @@
-// `holdfast check --repaired`: does a repaired surface keep the promise for its input?
+// `holdfast check --repaired`: whether a repaired surface keeps the promise for its input.
 #pragma once
 
 #include <filesystem>

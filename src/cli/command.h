@@ -24,27 +24,27 @@ enum ExitCode : int {
   exit_not_representable = 7,
 };
 
-/// The command line asks for something that does not exist or makes no sense.
+/// The command line requests something that does not exist or makes no sense.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Tells the user something, on stderr. A closed stderr is not a failure of the command.
+/// Prints a message to stderr. A closed stderr is not a failure of the command.
 template <typename... Values>
 void say(fmt::format_string<Values...> text, Values&&... values) {
   const std::string said = fmt::format(text, std::forward<Values>(values)...);
   static_cast<void>(std::fwrite(said.data(), 1, said.size(), stderr));
 }
 
-/// Of --threads.
+/// The help of --threads.
 inline constexpr const char* threads_help =
     "Threads, 0: all that the machine has (default 1); the result does not depend on them";
 
-/// What `main` runs once the command line is read; returns the exit code.
+/// The function that `main` runs after parsing the command line; returns the exit code.
 using Command = std::function<int()>;
 
-/// Each adds its subcommand to `app`; when the user names it, `chosen` becomes the command to run.
+/// Each adds its subcommand to `app`, which sets `chosen` if the user names it.
 void add_mesh(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_diagnose(CLI::App& app, Command& chosen);

@@ -35,8 +35,8 @@ struct ConvertArguments {
   bool quiet = false;
 };
 
-/// A format of surfaces alone takes the surface of a volume; one of volumes alone a volume without
-/// tetrahedra. Says what goes.
+/// A surface format takes the surface of a volume; a volume format takes a surface as a volume without
+/// tetrahedra. Says what is lost.
 void suit(AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarget& target) {
   if (mesh.is_volume && !target.holds_volumes) {
     if (part_of(arguments.only).kind == Part::Kind::volume)

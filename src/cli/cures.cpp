@@ -41,7 +41,7 @@ std::string message_of(const Cure& cure) {
   return "";
 }
 
-/// Those that change nothing that may be meant.
+/// The options without --union, which might change something intended.
 std::string options_of(const Cures& cures) {
   std::string options;
   for (const Cure& cure : cures.cures)
@@ -50,7 +50,7 @@ std::string options_of(const Cures& cures) {
   return options;
 }
 
-/// Of holes that are all left: beside others the proposal for these says how many are.
+/// For holes that all stay open; otherwise the proposal to fill holes gives their number.
 std::string left_open_text(const Cures& cures) {
   const bool some_are_filled = std::any_of(cures.cures.begin(), cures.cures.end(), [](const Cure& cure) {
     return cure.kind == CureKind::fill_holes;
@@ -60,7 +60,7 @@ std::string left_open_text(const Cures& cures) {
                      counted(cures.left_open, "hole"));
 }
 
-/// What comes of all proposals together.
+/// The effect of all proposals together.
 std::string effect_of(const Cures& cures) {
   if (!cures.tried)
     return fmt::format("may {} (not tried: too much meets)", cures.was_valid ? "close it" : "make it valid");

@@ -1,4 +1,4 @@
-// The proposals of `diagnose`, as options of `holdfast repair`.
+// The proposals of `diagnose`, expressed as options of `holdfast repair`.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace holdfast::cli {
 
-/// A line for each proposal, then the command; empty where there is nothing to cure.
+/// One line per proposal, then the command; empty if there is nothing to cure.
 [[nodiscard]] std::string cures_text(const Cures& cures);
 
-/// "tried", "options" as they are typed, and the proposals.
+/// "tried", "options" as the user would type them, and the proposals.
 [[nodiscard]] Json to_json(const Cures& cures);
 
 }  // namespace holdfast::cli

@@ -9,21 +9,21 @@
 
 namespace holdfast::cli {
 
-/// What a list shows of one cause where someone looks on; and where the defects are not what was asked for.
+/// The number of defects per cause in a list on a terminal, and in lists that the user did not ask for.
 inline constexpr std::size_t shown_on_terminal = 100;
 inline constexpr std::size_t shown_in_passing = 20;
 
-/// The defect's message, with the options that stand for what it says is to be done.
+/// The defect's message, followed by the options that do what it advises.
 [[nodiscard]] std::string message_of(const Defect& defect);
 
-/// Whether the surface itself breaks no rule, and only the choice of regions to keep does not suit it.
+/// Whether the surface breaks no rule, and only the choice of kept regions does not suit it.
 [[nodiscard]] bool is_valid(const std::vector<Defect>& defects);
 
-/// One line a cause: how many, the worst, what to do.
+/// One line per cause: the number, the worst one, what to do.
 [[nodiscard]] std::string summary_text(const DefectSummary& summary);
 
-/// Cause by cause, at most `most` of each: vertices that are almost one, then the defects. `rest` ends the
-/// line that tells how many are left out ("--all lists them").
+/// By cause, at most `most` of each: nearly coincident vertices, then the defects. `rest` ends the line that
+/// counts those left out ("--all lists them").
 [[nodiscard]] std::string list_text(const DefectSummary& summary, const std::vector<Defect>& defects,
                                     std::size_t most, const char* rest);
 

@@ -32,7 +32,8 @@ Json options_of(const DelaunayArguments& arguments) {
   return {{"points", arguments.points.string()}, {"seed", arguments.seed}, {"threads", arguments.threads}};
 }
 
-/// Of this program alone: getrusage would count the process that started it too. 0 where it is not told.
+/// Peak memory of this program alone, because getrusage would include the process that started it. 0 if
+/// unknown.
 std::uint64_t peak_memory_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {

@@ -1,4 +1,4 @@
-// `holdfast diagnose`: what is wrong with a surface, and where.
+// `holdfast diagnose`: the defects of a surface, and where they are.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct DiagnoseArguments {
   bool all = false, json = false, quiet = false;
 };
 
-/// What is told of a surface.
+/// What is reported about a surface.
 struct Findings {
   std::vector<Defect> defects;
   std::vector<Defect> outside;  ///< of a valid one: what `mesh` refuses unless it is asked to keep or drop it
@@ -65,7 +65,7 @@ std::string outside_text(const std::vector<Defect>& outside, std::size_t most) {
   return text;
 }
 
-/// The summary, then the list.
+/// The summary, then the list of defects.
 std::string listing_of(const Report::Input& counts, const Findings& found, std::size_t most) {
   const auto& [defects, outside, summary, cures, in_time] = found;
   const std::string input = fmt::format("{}, {}, {} in {}", counted(counts.vertices, "vertex", "vertices"),
@@ -109,7 +109,7 @@ RepairOptions trials(const DiagnoseOptions& options) {
   return trial;
 }
 
-/// Whether some element encloses nothing, so that it may lie outside every region.
+/// Whether some element encloses nothing, and may therefore lie outside every region.
 bool has_loose_elements(const Surface& surface, const DefectSummary& summary) {
   if (!surface.segments.empty() || !summary.groups.empty()) return true;
   std::vector<bool> used(surface.vertices.size(), false);
@@ -118,7 +118,7 @@ bool has_loose_elements(const Surface& surface, const DefectSummary& summary) {
   return std::find(used.begin(), used.end(), false) != used.end();
 }
 
-/// What `mesh` says of a valid surface by default: the regions are found as there.
+/// The defects that `mesh` reports for a valid surface by default; the regions are found in the same way.
 std::vector<Defect> find_outside(const Surface& surface, const DefectSummary& summary,
                                  const DiagnoseOptions& options) {
   if (summary.enclosed.value_or(0) == 0 || !has_loose_elements(surface, summary)) return {};
@@ -134,7 +134,7 @@ std::vector<Defect> find_outside(const Surface& surface, const DefectSummary& su
   return std::move(result.defects);
 }
 
-/// Cures are tried, which takes many times as long as the diagnosis: the time limit ends the search alone.
+/// Trying cures takes many times as long as the diagnosis; the time limit ends only that search.
 Findings examine(const Surface& surface, const DiagnoseOptions& options) {
   Findings found;
   found.defects = diagnose(surface.view(), options);
@@ -155,7 +155,7 @@ int diagnose_files(const DiagnoseArguments& arguments, DiagnoseOptions options,
       read_surfaces(arguments.surfaces, reading(options, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(surface.remarks);
   const Findings found = examine(surface, options);
-  if (!found.in_time) options.time_limit = 0;  // for what is written of it
+  if (!found.in_time) options.time_limit = 0;  // writing is not limited
   const std::vector<Defect>& defects = found.defects;
 
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);

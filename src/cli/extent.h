@@ -1,4 +1,4 @@
-// Where points lie, to tell whether two files have places in common.
+// Boxes round points, which show whether two files have places in common.
 #pragma once
 
 #include <fmt/core.h>
@@ -23,7 +23,7 @@ struct Extent {
   }
 };
 
-/// Of no points it meets nothing.
+/// Without points, the extent meets nothing.
 [[nodiscard]] inline Extent extent_of(std::span<const Point> points) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Extent extent{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};

@@ -33,7 +33,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// What the user would call it.
+/// The path as the user would write it.
 std::string called(const fs::path& path) {
   if (path == standard_input) return "standard input";
   if (path == standard_output) return "standard output";
@@ -44,7 +44,7 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Where links lead, also if that is not there yet; an open descriptor is a file of its own.
+/// Follows symbolic links, even to a file that does not exist; an open descriptor is not followed.
 fs::path linked(fs::path path) {
   constexpr int most_links = 40;
   std::error_code error;
@@ -66,7 +66,7 @@ bool same_inode(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// Whether names in a folder that differ in case alone are one: found out by a file, as no call tells.
+/// Whether the folder ignores the case of names. No system call tells, so a file is created to find out.
 bool ignores_case(const fs::path& folder) {
   const std::string name = fmt::format(".holdfast-{}-case.tmp", getpid());
   const fs::path file = folder / name;
@@ -78,7 +78,7 @@ bool ignores_case(const fs::path& folder) {
   return found;
 }
 
-/// Throws FileError unless a file of this name can be created, or written through.
+/// Throws FileError unless a file of this name can be created or written to.
 void require_writable(const fs::path& path) {
   const fs::path target = linked(path);
   if (const std::optional<int> descriptor = descriptor_of(target)) {
@@ -102,7 +102,7 @@ void require_writable(const fs::path& path) {
                                 folder.string(), std::strerror(errno)));
 }
 
-/// The same for a file in folders that are made when it is written.
+/// The same for a file whose folders are created when it is written.
 void require_writable_with_folders(const fs::path& path) {
   std::error_code ignored;
   fs::path folder = folder_of(path);
@@ -112,7 +112,7 @@ void require_writable_with_folders(const fs::path& path) {
   require_writable(folder / "polyMesh-would-be-here");
 }
 
-/// Without an ending the format must be told; a pipe has none, and what is in it can be read only once.
+/// A name without an extension needs the option, because a pipe can be read only once and cannot be examined.
 void require_format(const fs::path& path, std::string_view format) {
   std::error_code ignored;
   if (format.empty() && !path.has_extension() && (descriptor_of(path) || fs::is_fifo(path, ignored)))
@@ -149,7 +149,7 @@ void FilesOfRun::read_points(const fs::path& path, std::string_view format) { re
 void FilesOfRun::read_volume(const fs::path& path, std::string_view format) {
   require_format(path, format);
   std::vector<fs::path> files = files_of_volume(path, format);
-  // Those that an .inp includes.
+  // The files that an .inp includes.
   for (const fs::path& file : files_of_surface(path, format))
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
   read("the input", files);
@@ -169,7 +169,7 @@ void FilesOfRun::read_size_field(std::string_view option, const fs::path& path) 
 void FilesOfRun::read(std::string_view option, const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) {
     File file{std::string(option), path, false, true, {}, {}};
-    // What is not there cannot be lost; the reader says so.
+    // A file that does not exist cannot be overwritten; the reader reports it.
     if (status_of(path, file.status)) add(std::move(file));
   }
 }
@@ -180,7 +180,7 @@ void FilesOfRun::write(std::string_view option, const fs::path& path, bool with_
   const fs::path target = linked(path);
   if (!status_of(path, file.status)) {
     file.exists = false;
-    // In the nearest folder that is there: others are made with the file.
+    // The name in the nearest existing folder: the others are created with the file.
     fs::path folder = folder_of(target);
     file.name = target.filename();
     while (stat(folder.c_str(), &file.status) != 0 && folder.has_filename()) {
@@ -226,7 +226,7 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
   if (files.size() > 1 && is_stream)
     throw UsageError(fmt::format("{}: the format {} is of {} files beside one another, which need a name",
                                  called(path), kind, files.size()));
-  // A case of OpenFOAM need not have the folders of its mesh yet.
+  // The folders of an OpenFOAM case need not exist yet.
   for (const fs::path& file : files) write(option, file, kind == ".openfoam");
   return target;
 }
@@ -273,8 +273,8 @@ void FilesOfRun::require_different(const File& written, const File& other) {
        !ignores_case(folder_of(linked(written.path)))))
     return;
   if (written.exists) {
-    // Bytes written to a terminal, or to nowhere, replace nothing; nor do those to what is read by the other
-    // end of a pipe. Two that go out by one pipe would be one stream that nobody can read.
+    // Writing to a terminal or to /dev/null replaces nothing, nor does writing to a pipe whose other end is
+    // read. But two outputs through one pipe would mix.
     const mode_t kind = written.status.st_mode;
     const bool replaces = S_ISREG(kind) || S_ISBLK(kind);
     const bool twice = other.written && (!S_ISCHR(kind) || written.path == other.path);

@@ -1,4 +1,4 @@
-// Options that have no effect beside others. They are wrong usage, because their user expects an effect.
+// Options that have no effect together with others. They are wrong usage, because the user expects an effect.
 #pragma once
 
 #include "holdfast/holdfast.h"
@@ -6,10 +6,10 @@
 
 namespace holdfast::cli {
 
-/// Throws UsageError for the first option that has no effect beside another one.
+/// Throws UsageError for the first option that another one makes idle.
 void refuse_idle_options(const MeshArguments& arguments);
 
-/// The same, once files are read: a size field may be a metric, and surfaces may bring holes.
+/// The same after files are read: a size field may be a metric, and surfaces may have holes.
 void refuse_idle_options(const MeshArguments& arguments, const Options& options, const Surface& surface);
 
 }  // namespace holdfast::cli

@@ -1,4 +1,4 @@
-// `holdfast info`: what a file holds.
+// `holdfast info`: the contents of a file.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -24,7 +24,7 @@ struct InfoArguments {
   bool json = false, quiet = false;
 };
 
-/// A name for a terminal: without bytes that it would act on.
+/// A name safe to print: without control bytes that a terminal would obey.
 std::string shown(const std::string& name) {
   std::string text = name;
   std::replace_if(
@@ -51,14 +51,14 @@ std::string table_of(const std::string& title, const std::vector<Statistics::Gro
   return text;
 }
 
-/// One line a bin, with a bar of at most 40 signs.
+/// One line per bin, with a bar of at most 40 characters.
 std::string histogram_of(const Statistics& s) {
   constexpr std::size_t longest = 40;
   const std::size_t most = *std::max_element(s.least_dihedral.begin(), s.least_dihedral.end());
   std::string text = fmt::format("{:<18}tetrahedra by their least dihedral angle\n", "quality");
   for (std::size_t bin = 0; bin < s.least_dihedral.size(); ++bin) {
     const std::size_t count = s.least_dihedral[bin];
-    // What is there shows, however little it is.
+    // Rounded up, so that every nonempty bin shows.
     const std::size_t bar = most == 0 ? 0 : (count * longest + most - 1) / most;
     std::string line =
         fmt::format("{:<10}{:>2} - {:>2} {:>12}  {}", "", 5 * bin, 5 * bin + 5, count, std::string(bar, '#'));

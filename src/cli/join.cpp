@@ -31,7 +31,7 @@ bool is_vtu(const JoinArguments& arguments) {
   return format == ".vtu" || format == "vtu";
 }
 
-/// Places of mid-edge nodes go with the parts: what is at an interface is the business of two of them.
+/// Positions of mid-edge nodes are dropped, because nodes on an interface concern two parts.
 void tell_mid_nodes(const JoinArguments& arguments, bool had_some) {
   if (had_some && !arguments.quiet)
     say("holdfast: {}: mid-edge nodes of the parts are left out; `holdfast convert --order 2` gives a volume "
@@ -39,7 +39,7 @@ void tell_mid_nodes(const JoinArguments& arguments, bool had_some) {
         arguments.output.string());
 }
 
-/// What pieces do not hold of the surface, as there is no volume in memory.
+/// Reports which data of the surface pieces do not hold; no volume is in memory for it.
 void tell_not_held(const JoinArguments& arguments, const Surface& whole, const VolumeTarget& target) {
   if (arguments.quiet) return;
   Volume surface;
@@ -53,7 +53,7 @@ void tell_not_held(const JoinArguments& arguments, const Surface& whole, const V
   tell_not_held_by_pieces(target, surface);
 }
 
-/// A format of pieces alone has the parts, too.
+/// A format that only has pieces keeps the parts, too.
 bool keeps_parts(const JoinArguments& arguments) {
   if (arguments.pieces.parts) {
     if (arguments.as_parts) throw UsageError("--as-parts and --partition make other pieces of one mesh");

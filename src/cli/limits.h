@@ -16,24 +16,23 @@
 
 namespace holdfast::cli {
 
-/// What --time-limit and --memory-limit were given.
+/// The values of --time-limit and --memory-limit.
 struct LimitArguments {
   std::optional<double> time_limit, memory_limit;
 };
 
 void add_limits(CLI::App& command, LimitArguments& arguments);
 
-/// Of a command that begins now, and of signals once `cancel_by_flag` was called. Throws UsageError for
+/// The limits of a command that begins now; signals count after `cancel_by_flag`. Throws UsageError for
 /// numbers that are no limits.
 [[nodiscard]] Limits limits_of(const LimitArguments& arguments);
 
-/// The message for a call without an outcome that a limit or a signal ended, in the words of calls with an
-/// outcome.
+/// The message when a limit or a signal ended a call without an outcome, in the words of calls with one.
 [[nodiscard]] std::string message_of(const Interrupted& interrupted, const Limits& limits);
 
-/// Runs work that has no outcome: reading, writing, some calls. If a limit or a signal ends the work, or it
-/// needs more memory or numbers than there are, `report` gets the outcome and its message, as for calls with
-/// an outcome, before the exception is rethrown.
+/// Runs work that has no outcome: reading, writing, some calls. If a limit or a signal ends it, or it runs
+/// out of memory or indices, `report` gets the outcome and its message, as for calls with an outcome, before
+/// the exception is rethrown.
 template <class Work, class Report>
 auto work_or_report(const Limits& limits, const Work& work, const Report& report) {
   try {
@@ -50,10 +49,10 @@ auto work_or_report(const Limits& limits, const Work& work, const Report& report
   }
 }
 
-/// The report of a command that was ended before it found anything.
+/// The report of a command that ended before it found anything.
 void write_end(const std::filesystem::path& path, Outcome outcome, const std::string& message);
 
-/// As work_or_report, where all that there is to report is how it ended, in each of these files.
+/// As work_or_report, for reports that only tell how the command ended, in each of these files.
 template <class Work>
 auto work_or_write_end(const Limits& limits, const Work& work,
                        std::initializer_list<std::filesystem::path> reports) {
@@ -62,10 +61,10 @@ auto work_or_write_end(const Limits& limits, const Work& work,
   });
 }
 
-/// Limits for reading, which obeys signals once `cancel_by_flag` was called.
+/// Limits for reading; signals count after `cancel_by_flag`.
 [[nodiscard]] ReadOptions reading(const Limits& limits, const std::string& format, double tolerance = 0);
 
-/// Why text is no number of 64 bits without a sign, which would become another one without a word; else "".
+/// Why a text is not an unsigned number of 64 bits, which CLI11 would silently convert; empty if it is one.
 [[nodiscard]] std::string not_a_count(const std::string& text);
 
 /// --seed.
@@ -78,11 +77,11 @@ void add_tolerance(CLI::App& command, double& tolerance);
 /// Lets limits and signals end the writing of a file.
 void watch_writing(WriteOptions& options, const Limits& limits);
 
-/// Says that a command ended by a limit or a signal, which `outcome` must be, and what helps; returns the
+/// Reports that a limit or a signal ended the command, which `outcome` must say, and what helps; returns the
 /// exit code. `message` is that of the result.
 int tell_limit(Outcome outcome, const std::string& message);
 
-/// For `progress` of calls that tell nothing: false after a signal.
+/// A `progress` callback that shows nothing: false after a signal.
 [[nodiscard]] bool goes_on(double fraction);
 
 }  // namespace holdfast::cli

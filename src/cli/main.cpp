@@ -1,4 +1,4 @@
-// The program `holdfast`: reads the command line, runs one command, turns failures into exit codes.
+// The program `holdfast`: reads the command line, runs one command, and turns failures into exit codes.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ constexpr const char* footer =
     "violation;\n"
     "7 no positive mesh in double precision was found.";
 
-// The command that is asked for, or all of them for help: on a small surface the options of the others would
+// Adds the requested command, or all of them for help: on a small surface, adding the options of all would
 // take longer than the mesh.
 void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
   // clang-format off
@@ -56,16 +56,16 @@ void add_commands(CLI::App& app, Command& chosen, std::string_view asked) {
     if (!one || is_asked(command)) command.second(app, chosen);
 }
 
-/// A program may be started without standard streams. The next files that it opens would become them, and get
-/// its messages; so something is opened that refuses what they are for.
+/// A program may be started without standard streams. The next files that it opened would take their place
+/// and get its messages. So each missing stream is opened in the mode that makes its use fail.
 void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) < 0)
       static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-/// A limit ended the run while files were read or written, or in a call that has no outcome. Tells it as it
-/// was given.
+/// A limit ended the run while files were read or written, or in a call without an outcome. The message
+/// repeats the limit as the user gave it.
 int tell_interruption(const Interrupted& interrupted, const CLI::App& command) {
   const auto given = [&](const char* option) { return command.get_option(option)->as<std::string>(); };
   switch (interrupted.outcome()) {
@@ -79,7 +79,7 @@ int tell_interruption(const Interrupted& interrupted, const CLI::App& command) {
   }
 }
 
-/// A value that is empty, as of a variable that is not set, would count as none.
+/// An empty value, as of an unset variable, would count as no value.
 void require_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_expected_min() == 0) continue;
@@ -101,14 +101,14 @@ int run(int count, const char* const* arguments) {
   const std::string_view first = count > 1 ? arguments[1] : "-";
   add_commands(app, chosen, first);
 
-  // CLI11 would only say that a command is missing.
+  // CLI11 would only report a missing command.
   const auto named = [&](const CLI::App* command) { return command->check_name(std::string(first)); };
   if (!first.starts_with('-') && app.get_subcommands(named).empty())
     throw UsageError("there is no command '" + std::string(first) + "'; `holdfast --help` lists them");
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
-    // Help and version are "errors" of code 0 here.
+    // CLI11 reports help and version as errors of code 0.
     if (app.exit(error) != 0) return exit_usage;
     if (!std::cout.flush()) throw FileError("/dev/stdout", "", "cannot be written");
     return exit_done;
@@ -135,7 +135,7 @@ int main(int count, char** arguments) {
     say("", error.what());
     return cli::exit_usage;
   } catch (const std::invalid_argument& error) {
-    // What the library says of options that do not suit the surface, such as a hole outside it.
+    // The library rejected options that do not suit the surface, such as a hole outside it.
     say("", error.what());
     return cli::exit_usage;
   } catch (const holdfast::FileError& error) {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) { throw FileError(path, "", reason); }
 
-/// A name within the folder: what a manifest from elsewhere says must lead nowhere else.
+/// A name within the folder: a foreign manifest must not lead to files elsewhere.
 fs::path name_in(const fs::path& manifest, const Json& json, const char* key) {
   const fs::path name = json.at(key).get<std::string>();
   if (name.empty() || name.has_parent_path() || name == "." || name == "..")
@@ -70,8 +70,8 @@ std::vector<std::pair<Triangle, int>> facets_with_markers(std::span<const Triang
   return all;
 }
 
-/// In what a volume is not what `mesh` makes of a part's surface without options, as far as joining goes by
-/// it; empty if in nothing. A part has a seed for each of its regions.
+/// How a volume differs from what `mesh` makes of a part's surface without options, in what joining relies
+/// on; empty if in nothing. The surface of a part has a seed for each of its regions.
 std::string foreign_in(const Volume& volume, const Surface& surface) {
   const std::size_t n = surface.vertices.size();
   if (volume.vertices.size() < n ||

@@ -31,16 +31,16 @@ struct Manifest {
 
 inline constexpr const char* manifest_name = "manifest.json";
 
-/// CRC-32 of a file's bytes, eight hexadecimal digits. Throws FileError.
+/// CRC-32 of a file's bytes as eight hexadecimal digits. Throws FileError.
 [[nodiscard]] std::string checksum_of(const std::filesystem::path& file);
 
-/// Throws FileError, also for a manifest of another kind, and for names that lead out of the folder.
+/// Throws FileError, also for a manifest of another kind and for names that lead out of the folder.
 [[nodiscard]] Manifest read_manifest(const std::filesystem::path& folder);
 
-/// The surface that was divided, with its names. Throws FileError; and Stale if it is not the one that was.
+/// The divided surface, with its names. Throws FileError, and Stale if the file has changed.
 [[nodiscard]] Surface whole_of(const Manifest& manifest, const Limits& limits);
 
-/// A file of a division is not what the manifest says.
+/// A file of a division differs from what the manifest says.
 class Stale : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,4 +1,4 @@
-// `holdfast mesh`: surfaces in, tetrahedra out.
+// `holdfast mesh`: fills surfaces with tetrahedra.
 #include <fmt/core.h>
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Says how the run ended and what the user can do; returns the exit code.
+/// Reports how the run ended and what the user can do; returns the exit code.
 int conclude(const MeshArguments& arguments, const Surface& surface, const Result& result) {
   const std::string message = result.message.empty() ? name(result.outcome) : result.message;
   switch (result.outcome) {
@@ -104,7 +104,7 @@ void tell_the_end(const MeshArguments& arguments, const Options& options, const 
   print_summary(arguments, options, result, seconds);
 }
 
-/// A page where there is something to look at: a mesh, or a surface that has none.
+/// Writes the page if there is something to show: a mesh, or a surface without one.
 void write_html(const MeshArguments& arguments, const Limits& limits, const Surface& surface,
                 const Result& result, Json report) {
   const bool done = result.outcome == Outcome::done;
@@ -132,7 +132,7 @@ Json report_of(const RepairResult& result, const RepairOptions& options) {
                           {"union", options.unite}});
 }
 
-/// Notes all files of the run before anything is read, so that one that cannot be is found at once.
+/// Names all files of the run before anything is read, so that an unusable one is found at once.
 struct Targets {
   AnyTarget volume;
   WriteOptions repaired;
@@ -160,7 +160,7 @@ Targets note_files(const MeshArguments& arguments, const Options& options, Files
   return targets;
 }
 
-/// What is to be meshed, and the smooth surface on which --curved puts mid-edge nodes.
+/// The surface to mesh, and the smooth surface on which --curved puts mid-edge nodes.
 struct Given {
   MeshInput input;
   std::optional<Surface> smooth;
@@ -194,7 +194,7 @@ void take_repaired(const MeshArguments& arguments, const Options& options, const
   require_a_size_a_vertex(arguments, options, input.surface);
 }
 
-/// Without what --order 2 and --repair add to it.
+/// The report without the parts that --order 2 and --repair add.
 Json report_of(const MeshArguments& arguments, const Options& options, const MeshInput& input,
                const Surface& meshed, const Result& result) {
   Json report = to_json(result, to_json(arguments));
@@ -209,7 +209,7 @@ Json report_of(const MeshArguments& arguments, const Options& options, const Mes
   return report;
 }
 
-/// `result` is what is known, should a limit end it.
+/// `result` has what is known if a limit ends the run.
 int mesh_files(const MeshArguments& arguments, Options options, FilesOfRun& files, const Stopwatch& whole,
                Result& result) {
   const Names names = names_of(arguments.names);
@@ -223,7 +223,7 @@ int mesh_files(const MeshArguments& arguments, Options options, FilesOfRun& file
   const double reading = result.report.seconds["read"] = whole.seconds();
 
   std::optional<RepairResult> repaired;
-  Surface unrepaired;  // if it may be repaired once more
+  Surface unrepaired;  // for a further repair
   if (repairing) {
     if (arguments.exact.empty()) unrepaired = input.surface;
     repaired = repair_before(input.surface, *repairing, progress);
@@ -269,7 +269,7 @@ int mesh_files(const MeshArguments& arguments, Options options, FilesOfRun& file
 int run(const MeshArguments& arguments) {
   const Stopwatch whole;
   Options options = to_options(arguments);
-  options.started = whole.start();  // the limit is on the whole command
+  options.started = whole.start();  // the limit covers the whole command
   FilesOfRun files;
   Result result;  // until the end
   return work_or_report(

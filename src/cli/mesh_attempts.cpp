@@ -12,7 +12,7 @@ namespace holdfast::cli {
 Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Options& options) {
   try {
     if (input.pasted) {
-      const Surface& pasted = input.pasted->surface;  // seeds of a single file are its own
+      const Surface& pasted = input.pasted->surface;  // has the seeds that a single file has itself
       options.holes.insert(options.holes.end(), pasted.holes.begin(), pasted.holes.end());
       options.regions.insert(options.regions.end(), pasted.regions.begin(), pasted.regions.end());
       set_bounds(arguments.bounds, pasted.names, options);

@@ -77,7 +77,7 @@ void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surfac
   for (const Segment& s : surface.segments) std::for_each(s.begin(), s.end(), use);
   std::size_t lone = 0;
   if (std::find(used.begin(), used.end(), false) != used.end()) {
-    // Those that are left out, since another is at their place or they have none, are told of elsewhere.
+    // Vertices left out, as duplicates or because they are not finite, are reported elsewhere.
     const std::vector<std::int64_t> map = vertex_map(surface.view());
     for (std::size_t v = 0; v < used.size(); ++v)
       if (!used[v] && (map.empty() || map[v] >= 0)) ++lone;

@@ -17,7 +17,8 @@
 namespace holdfast::cli {
 namespace {
 
-/// Splits at commas into exactly `count` finite numbers. Throws UsageError that says `what` is expected.
+/// Splits the text at commas into exactly `count` finite numbers. Throws UsageError; `what` names what is
+/// expected.
 std::vector<double> numbers(const char* option, const std::string& text, std::size_t count,
                             const char* what) {
   std::vector<double> values;
@@ -184,7 +185,7 @@ Options to_options(const MeshArguments& arguments) {
   if (!arguments.stop_after.empty()) options.stop_after = stage_named(arguments.stop_after);
   if (!arguments.order.empty()) options.order = order_named(arguments.order);
   options.drop_outside =
-      arguments.drop_outside || arguments.repair_ways.unite;  // corners of what a union drops stay
+      arguments.drop_outside || arguments.repair_ways.unite;  // a union leaves the vertices of what it drops
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.time_limit = time_limit_of(arguments.time_limit);

@@ -17,7 +17,7 @@
 
 namespace holdfast::cli {
 
-/// What the user typed.
+/// The user's arguments.
 struct MeshArguments {
   std::vector<std::filesystem::path> surfaces;
   std::filesystem::path report, exact, html, repaired;
@@ -41,30 +41,31 @@ struct MeshArguments {
   std::optional<double> time_limit, memory_limit;
 };
 
-/// Takes the words of --order: at most one for the order of the elements, and one for that of the
-/// constraints. Throws CLI::ValidationError for more.
+/// Takes the words of --order: at most one for the order of elements, and one for that of constraints. Throws
+/// CLI::ValidationError for more.
 void take_orders(MeshArguments& arguments, const std::vector<std::string>& words);
 
-/// The library's options, but for the size field. Reads no file. Throws UsageError that says what is wrong
-/// and what is right, also for options that do nothing beside others.
+/// The library's options, except for the size field. Reads no file. Throws UsageError that says what is wrong
+/// and what is right, also for options without effect.
 [[nodiscard]] Options to_options(const MeshArguments& arguments);
 
-/// Those of the repair before the mesh, if it is asked for, with the limits and threads of the mesh.
+/// The options of the repair before the mesh, if there is one, with the limits and threads of the mesh.
 [[nodiscard]] std::optional<RepairOptions> repair_options(const MeshArguments& arguments,
                                                           const Options& options);
 
-/// Reads the size field, if there is one, into the sizes. Returns where it has sizes, unless that is at the
-/// vertices of the surface. Throws FileError.
+/// Reads the size field, if there is one, into the sizes. Returns its extent, unless its sizes are those of
+/// the surface's vertices. Throws FileError.
 std::optional<Extent> read_size_field(const MeshArguments& arguments, Options& options);
 
 /// The stage of that name. Throws UsageError.
 [[nodiscard]] Stage stage_named(const std::string& text);
 
-/// Bytes of a limit in gigabytes, or 0 for none; seconds, or 0. Both throw UsageError unless it is positive.
+/// The limit in bytes from gigabytes, or 0 for none; the limit in seconds, or 0. Both throw UsageError unless
+/// the number is positive.
 [[nodiscard]] std::uint64_t memory_limit_of(const std::optional<double>& gigabytes);
 [[nodiscard]] double time_limit_of(const std::optional<double>& seconds);
 
-/// What the user typed, for the report.
+/// The user's arguments, for the report.
 [[nodiscard]] Json to_json(const MeshArguments& arguments);
 
 }  // namespace holdfast::cli

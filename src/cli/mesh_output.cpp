@@ -28,7 +28,7 @@ void write_one(const fs::path& path, const AnyTarget& target, const Volume& volu
   if (!quiet) tell(not_held(path, surface, target.options), path);
 }
 
-/// A name as part of a file's: UTF-8 stays, and of ASCII letters, digits and what no shell or system minds.
+/// A name as part of a file name: keeps UTF-8 and, of ASCII, letters, digits and characters safe everywhere.
 std::string in_file_name(const std::string& name) {
   constexpr std::size_t longest = 100;
   std::string text;
@@ -51,7 +51,7 @@ std::map<int, fs::path> files_of_regions(const fs::path& path, const Volume& vol
     const auto found = volume.names.regions.find(id);
     const bool named = found != volume.names.regions.end() && !found->second.empty();
     std::string name = named ? in_file_name(found->second) : fmt::format("region_{}", id);
-    std::string lower = name;  // some file systems know no case
+    std::string lower = name;  // some file systems ignore case
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     if (!taken.insert(lower).second) name += fmt::format("_{}", id);

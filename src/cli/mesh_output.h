@@ -11,17 +11,17 @@
 
 namespace holdfast::cli {
 
-/// Of --each-region.
+/// The help of --each-region.
 inline constexpr const char* each_region_help =
     "Write a file for each region, NAME_REGION with its name or region_ID, where a format of surfaces has "
     "the "
     "closed surface of the region, seen from outside";
 
-/// Of --no-interfaces.
+/// The help of --no-interfaces.
 inline constexpr const char* no_interfaces_help =
     "Leave out triangles with tetrahedra on both sides, as deal.II wants it";
 
-/// What the user typed.
+/// The user's arguments.
 struct OutputArguments {
   std::filesystem::path path;
   std::string format;
@@ -30,16 +30,16 @@ struct OutputArguments {
   bool each_region = false, no_interfaces = false;
 };
 
-/// Names the file, and makes its options. Throws UsageError.
+/// Names the file and determines its options. Throws UsageError.
 [[nodiscard]] AnyTarget output_target(FilesOfRun& files, const char* option,
                                       const OutputArguments& arguments);
 
-/// Writes a volume, or its boundary and interfaces where the format holds surfaces alone, which is told
-/// unless `quiet`. Throws FileError, and UsageError if a file for a region would replace one that is in use.
+/// Writes a volume or, if the format only holds surfaces, its boundary and interfaces, and says so unless
+/// `quiet`. Throws FileError, and UsageError if a region's file would replace one that is in use.
 void write_output(FilesOfRun& files, const OutputArguments& arguments, const AnyTarget& target,
                   const Volume& volume, bool quiet);
 
-/// Says that the tetrahedra and region ids of a volume have no place in a file.
+/// Reports that a file cannot hold the tetrahedra and region ids of a volume.
 void tell_of_surface_alone(const std::filesystem::path& path, const Volume& volume);
 
 }  // namespace holdfast::cli

@@ -11,7 +11,7 @@
 namespace holdfast::cli {
 namespace {
 
-/// Facets whose borders do not meet enclose nothing, or lie outside.
+/// Facets whose borders do not meet may enclose nothing or lie outside.
 bool is_open(const DefectSummary& summary, const std::vector<Defect>& defects) {
   const auto has_border = [](const DefectGroup& group) { return group.cause == Cause::open_border; };
   const auto may_come_of_it = [](const Defect& defect) {
@@ -21,7 +21,7 @@ bool is_open(const DefectSummary& summary, const std::vector<Defect>& defects) {
          std::any_of(defects.begin(), defects.end(), may_come_of_it);
 }
 
-/// A tolerance for pasting that is above the size of details.
+/// Advice if the tolerance for pasting is above the size of details.
 void print_advice_on_tolerance(const MeshArguments& arguments) {
   if (arguments.paste && !arguments.paste->empty())
     say("--paste={} may be above the size of the parts' details, which are lost then: a smaller tolerance "
@@ -39,7 +39,7 @@ void print_refusal(const MeshArguments& arguments, const Surface& surface, const
   }
   const DefectSummary summary = summarise(surface.view(), result.defects);
   if (is_valid(result.defects)) {
-    // The defects say what and where themselves; what may be the reason is that the borders do not meet.
+    // The defects describe themselves; the likely reason is that borders do not meet.
     say("holdfast: the surface is valid, but cannot be filled so\n{}",
         list_text(summary, result.defects, shown_in_passing, "--report FILE.json has them"));
     print_advice_on_tolerance(arguments);

@@ -1,4 +1,4 @@
-// The messages of `holdfast mesh` for a surface that it does not fill.
+// The messages of `holdfast mesh` for a surface that it cannot fill.
 #pragma once
 
 #include "holdfast/holdfast.h"
@@ -6,7 +6,7 @@
 
 namespace holdfast::cli {
 
-/// Of a surface that is not valid, or valid and nothing to fill: why, and what the user can do.
+/// For a surface that is not valid, or has nothing to fill: why, and what the user can do.
 void print_refusal(const MeshArguments& arguments, const Surface& surface, const Result& result);
 
 }  // namespace holdfast::cli

@@ -57,13 +57,13 @@ Naming naming_of(const std::string& argument) {
   return naming;
 }
 
-/// What has no marker has 0.
+/// Entities without markers have marker 0.
 void add(std::set<int>& ids, const std::vector<int>& markers, std::size_t entities) {
   if (markers.empty() && entities > 0) ids.insert(0);
   for (const int marker : markers) ids.insert(marker);
 }
 
-/// Of a surface or volume, all but its regions.
+/// Everything that can be named in a surface or volume except its regions.
 template <class Entities>
 Nameable marked_in(const Entities& of) {
   Nameable ids;

@@ -13,10 +13,10 @@ namespace holdfast::cli {
 /// Adds the option, which may be given several times.
 void add_name_option(CLI::App& command, std::vector<std::string>& arguments);
 
-/// What was typed as a table. Throws UsageError.
+/// The arguments as a table. Throws UsageError.
 [[nodiscard]] Names names_of(const std::vector<std::string>& arguments);
 
-/// Markers and ids of regions that something has.
+/// The markers and region ids that occur.
 struct Nameable {
   std::set<int> facets, regions, segments, vertices;
   bool regions_are_known = true;  ///< not of a surface without seeds, whose mesh numbers them
@@ -24,10 +24,10 @@ struct Nameable {
 [[nodiscard]] Nameable nameable_in(const Volume& volume);
 [[nodiscard]] Nameable nameable_in(const Surface& surface);
 
-/// Says which of the names nothing has.
+/// Reports names that belong to no marker or region.
 void tell_idle_names(const std::vector<std::string>& arguments, const Nameable& there);
 
-/// Puts `names` in, which count where `into` has others.
+/// Merges `names`, which take precedence over those of `into`.
 void merge(Names& into, const Names& names);
 
 }  // namespace holdfast::cli

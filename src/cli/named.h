@@ -1,4 +1,4 @@
-// Values of enumerations by their names, as the command line spells them.
+// Enumerators by name, as the command line spells them.
 #pragma once
 
 #include <fmt/core.h>

@@ -8,7 +8,7 @@
 
 namespace holdfast::cli {
 
-/// std::from_chars for doubles, which libc++ has from version 20 on only. The text ends in a zero; the
+/// std::from_chars for doubles, which libc++ only has from version 20 on. The text must end in a zero; the
 /// program never sets a locale.
 inline std::from_chars_result parse_double(const char* first, const char* last, double& value) {
 #if defined(__cpp_lib_to_chars)

@@ -70,7 +70,7 @@ Json set_order(Volume& volume, const OrderArguments& arguments, const std::optio
     return {{"order", volume.mid_nodes.empty() ? 1 : 2}};
   }
   if (!smooth) {
-    // Nodes that a file has stay as they are.
+    // Nodes from a file are kept.
     if (volume.mid_nodes.empty()) add_mid_nodes(volume, limits);
     const std::size_t not_positive = tell_not_positive(volume, limits, quiet);
     return {{"order", 2}, {"nodes", volume.mid_nodes.points.size()}, {"not_positive", not_positive}};

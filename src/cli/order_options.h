@@ -12,30 +12,28 @@
 
 namespace holdfast::cli {
 
-/// What the user typed.
+/// The user's arguments.
 struct OrderArguments {
   std::optional<int> order;  ///< none: 1 for what is made, and what a file has for what is converted
   std::filesystem::path curved;
   std::optional<double> tolerance;
 };
 
-/// --curved and --curved-tolerance; `add_order` has --order, too, where it means nothing else.
+/// Adds --curved and --curved-tolerance; with `add_order` also --order, where it has no other meaning.
 void add_curved(CLI::App& command, OrderArguments& arguments);
 void add_order(CLI::App& command, OrderArguments& arguments);
 
-/// Throws UsageError for options that make no sense or do nothing; names the file that is read.
+/// Throws UsageError for options that make no sense or have no effect; names the file to read.
 void take_order(const OrderArguments& arguments, FilesOfRun& files);
 
 /// The smooth surface, if there is one. Throws FileError.
 [[nodiscard]] std::optional<Surface> read_curved(const OrderArguments& arguments, const Limits& limits);
 
-/// Warns, unless `quiet`, of elements of second order that are not positive everywhere; returns how many
-/// there are.
+/// Warns, unless `quiet`, of elements of second order that are not positive everywhere; returns their number.
 std::size_t tell_not_positive(const Volume& volume, const Limits& limits, bool quiet);
 
-/// Gives the volume the order that was asked for, if one was: mid-edge nodes if 2, on the smooth surface
-/// where they can be. Tells what stayed straight, and what is not positive, unless `quiet`; returns it for
-/// the report.
+/// Gives the volume the requested order, if any: mid-edge nodes for 2, on the smooth surface where possible.
+/// Unless `quiet`, reports what stays straight and what is not positive; returns this for the report.
 Json set_order(Volume& volume, const OrderArguments& arguments, const std::optional<Surface>& smooth,
                const Limits& limits, bool quiet);
 

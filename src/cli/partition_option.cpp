@@ -15,7 +15,7 @@
 namespace holdfast::cli {
 namespace {
 
-/// Up to so many pieces, files that are named later are compared with each of them, too.
+/// Up to this number of pieces, files named later are compared with each of them.
 constexpr std::size_t kNamedEach = 1000;
 
 bool is_one_of(const std::vector<std::string>& formats, const std::string& format) {
@@ -47,8 +47,8 @@ VolumeTarget target_of_pieces(FilesOfRun& files, std::string_view option, const 
   if (descriptor_of(path)) throw UsageError(fmt::format("{}: pieces need a name", path.string()));
   if (writing.one_file) throw UsageError("--one-file does nothing for pieces, which have files of their own");
   apply(writing, target);
-  // Pieces differ from each other; where they are many, each is compared with the other files alone. Folders
-  // of OpenFOAM's processes are made with their files.
+  // Pieces have different names. If they are many, each is compared only with the other files. Folders of
+  // OpenFOAM's processes are created with their files.
   const FilesOfRun others = files;
   for (const std::filesystem::path& file : files_of_pieces(path, pieces, kind)) {
     if (pieces <= kNamedEach) {
@@ -83,7 +83,7 @@ void write_partition(const VolumeTarget& target, std::size_t pieces, const Volum
 }
 
 void tell_not_held_by_pieces(const VolumeTarget& target, const Volume& volume) {
-  // It does not depend on pieces; a format of pieces alone holds all.
+  // The loss does not depend on pieces. A format that only has pieces loses nothing.
   if (is_one_of(volume_formats(), format_of(target)))
     tell(not_held(target.path, volume, target.options), target.path);
 }

@@ -16,7 +16,7 @@ struct PartitionArguments {
 
 void add_partition(CLI::App& command, PartitionArguments& arguments);
 
-/// Where to write a volume in pieces, and how. Throws UsageError for formats that have none, and for options
+/// Where and how to write a volume in pieces. Throws UsageError for formats without pieces, and for options
 /// that do nothing there.
 [[nodiscard]] VolumeTarget target_of_pieces(FilesOfRun& files, std::string_view option,
                                             const std::filesystem::path& path, std::string format,
@@ -26,11 +26,11 @@ void add_partition(CLI::App& command, PartitionArguments& arguments);
                                                const std::filesystem::path& path, const std::string& format,
                                                std::size_t pieces, const WriteArguments& writing);
 
-/// Writes the volume in pieces by METIS, and tells what the files do not hold unless `quiet`. Throws
-/// UsageError for more pieces than tetrahedra, and for elements of second order.
+/// Partitions the volume by METIS, writes the pieces and, unless `quiet`, reports what the files do not hold.
+/// Throws UsageError for more pieces than tetrahedra, and for elements of second order.
 void write_partition(const VolumeTarget& target, std::size_t pieces, const Volume& volume, bool quiet);
 
-/// Says what of a volume the format of its pieces does not hold.
+/// Reports what the format of the pieces does not hold of a volume.
 void tell_not_held_by_pieces(const VolumeTarget& target, const Volume& volume);
 
 }  // namespace holdfast::cli

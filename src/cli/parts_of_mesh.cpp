@@ -29,7 +29,7 @@ void keep(std::vector<T>& values, const std::vector<bool>& stays) {
   values.resize(kept);
 }
 
-/// Of some entities, with their tags and mid-edge nodes, those of which `stays` says so.
+/// Keeps the entities for which `stays` is true, with their tags and mid-edge nodes.
 template <typename Entity, typename Nodes, typename Stays>
 void keep(std::vector<Entity>& entities, std::vector<int>& tags, std::vector<Nodes>& nodes, Stays&& says) {
   std::vector<bool> stays(entities.size());
@@ -39,8 +39,7 @@ void keep(std::vector<Entity>& entities, std::vector<int>& tags, std::vector<Nod
   keep(nodes, stays);
 }
 
-/// Drops the mid-edge nodes that nothing names; the others follow `vertices` vertices, of which there were
-/// `before`.
+/// Drops unused mid-edge nodes; the others are numbered after `vertices` vertices instead of `before`.
 void renumber_mid_nodes(MidNodes& mid, std::size_t before, std::size_t vertices) {
   std::vector<Index> now(mid.points.size(), no_entity);
   const auto for_each = [&](auto&& visit) {
@@ -90,7 +89,7 @@ void drop_unused_vertices(Volume& volume) {
   renumber(volume.segments);
 }
 
-/// Of each facet, how many tetrahedra have it as a face, and how many of these see it turn inward.
+/// For each facet, how many tetrahedra have it as a face, and how many of these see it oriented inwards.
 struct SidesOfFacets {
   std::vector<int> count, inward;
 
@@ -114,19 +113,19 @@ struct SidesOfFacets {
   }
 };
 
-/// Facets with a tetrahedron on one side alone become seen from outside: an interface that looks into a
-/// region is its boundary where the other region is not there.
+/// Orients facets with a tetrahedron on one side only to face outwards: an interface that faces into a region
+/// becomes its boundary when the other region is dropped.
 void turn_outward(Volume& volume) {
   const SidesOfFacets sides(volume);
   for (std::size_t f = 0; f < volume.facets.size(); ++f) {
     if (sides.count[f] != 1 || sides.inward[f] != 1) continue;
     std::swap(volume.facets[f][1], volume.facets[f][2]);
-    if (!volume.mid_nodes.facets.empty())  // of the edges 01 12 02
+    if (!volume.mid_nodes.facets.empty())  // nodes of the edges 01 12 02
       std::swap(volume.mid_nodes.facets[f][0], volume.mid_nodes.facets[f][2]);
   }
 }
 
-/// The first few, each with its name.
+/// The first few regions, with their names.
 std::string listed(const std::set<int>& regions, const Names& names) {
   constexpr std::size_t kMost = 10;
   std::string list;

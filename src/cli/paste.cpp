@@ -1,4 +1,4 @@
-// `holdfast paste`: parts that touch in, one conformal surface out.
+// `holdfast paste`: makes one conformal surface of parts that touch.
 #include "holdfast/paste.h"
 
 #include <CLI/CLI.hpp>
@@ -57,7 +57,7 @@ Json options_of(const PasteArguments& arguments) {
           {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
 }
 
-/// Regions are those that a mesh of it has.
+/// The regions are those of a mesh of it.
 Nameable nameable_of_mesh(const PasteResult& result) {
   Nameable ids = nameable_in(result.surface);
   ids.regions_are_known = true;
@@ -68,7 +68,7 @@ Nameable nameable_of_mesh(const PasteResult& result) {
   return ids;
 }
 
-/// Says how the run ended and what the user can do; returns the exit code.
+/// Reports how the run ended and what the user can do; returns the exit code.
 int conclude(const PasteArguments& arguments, const PasteResult& result,
              const char* advice = overlap_advice) {
   switch (result.outcome) {
@@ -91,14 +91,14 @@ int conclude(const PasteArguments& arguments, const PasteResult& result,
   return exit_internal_error;
 }
 
-/// What the files hold: volumes if every one has tetrahedra, else surfaces.
+/// The contents of the files: volumes if every file has tetrahedra, otherwise surfaces.
 struct Parts {
   std::vector<Volume> volumes;
   std::vector<Surface> surfaces;
   std::vector<std::vector<Remark>> remarks;  ///< of volumes
 };
 
-/// What comes through a pipe is there once, and taken for a surface.
+/// A pipe can be read only once, and is read as a surface.
 bool may_be_volumes(const PasteArguments& arguments) {
   return std::all_of(arguments.surfaces.begin(), arguments.surfaces.end(), [&](const auto& path) {
     std::error_code error;
@@ -124,10 +124,10 @@ Parts read(const PasteArguments& arguments, const PasteOptions& options) {
   return parts;
 }
 
-/// Regions of one id without a name are one, though they are those of several files.
+/// Regions with one id and no name become one region, even from several files.
 void tell_joined_regions(const std::vector<std::filesystem::path>& files,
                          const std::vector<Volume>& volumes) {
-  std::map<int, std::size_t> first;  // the file that has the id
+  std::map<int, std::size_t> first;  // the first file that has the id
   std::set<int> told;
   for (std::size_t k = 0; k < volumes.size(); ++k)
     for (const int id : std::set<int>(volumes[k].regions.begin(), volumes[k].regions.end())) {
@@ -203,9 +203,9 @@ int paste_files(const PasteArguments& arguments, const PasteOptions& options, Fi
 
 int run(const PasteArguments& arguments) {
   const PasteOptions options = to_options(arguments);
-  static_cast<void>(names_of(arguments.names));  // wrong usage is told before anything is read
+  static_cast<void>(names_of(arguments.names));  // reports wrong usage before anything is read
   FilesOfRun files;
-  std::optional<WriteOptions> target;  // if it is known before anything is read that it is for a surface
+  std::optional<WriteOptions> target;  // if it is a surface for certain before anything is read
   if (may_be_volumes(arguments)) {
     for (const auto& path : arguments.surfaces) files.read_volume(path, arguments.input_format);
   } else {

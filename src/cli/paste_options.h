@@ -11,17 +11,18 @@
 
 namespace holdfast::cli {
 
-/// A flag that may have a value behind "=", so that files can follow it. Empty for none.
+/// Adds a flag with an optional value after "=", so that files can follow it. The value is empty if not
+/// given.
 void add_paste_option(CLI::App& command, std::optional<std::string>& tolerance);
 void add_overlap_option(CLI::App& command, std::optional<std::string>& overlap);
 
-/// Throws UsageError for what is none of first, last and new.
+/// Throws UsageError for anything but first, last and new.
 [[nodiscard]] Overlap overlap_named(const std::optional<std::string>& text);
 
-/// What a tolerance was given as. Throws UsageError for `option` if it is not positive.
+/// The value of a tolerance. Throws UsageError, naming `option`, if it is not positive.
 [[nodiscard]] double tolerance_of(const std::string& text, const std::string& option);
 
-/// The files as messages call them.
+/// The names of files in messages.
 [[nodiscard]] std::vector<std::string> labels_of(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace holdfast::cli

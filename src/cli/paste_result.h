@@ -1,4 +1,4 @@
-// What pasting is told as.
+// Messages about the result of pasting.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@ namespace holdfast::cli {
 
 inline constexpr const char* overlap_advice = "--overlap first, last or new says who gets what both hold";
 
-/// Says what came out, and which parts touch no other.
+/// Reports the result, and parts that touch no other part.
 void tell(const PasteResult& result, const std::filesystem::path& output);
 
 }  // namespace holdfast::cli

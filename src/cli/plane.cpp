@@ -1,4 +1,4 @@
-// `holdfast plane`: points and segments in the plane, triangles out.
+// `holdfast plane`: triangulates points and segments in the plane.
 #include "holdfast/plane.h"
 
 #include <fmt/ranges.h>
@@ -60,7 +60,7 @@ void set_refinement(const PlaneArguments& arguments, PlaneOptions& options) {
     throw UsageError(fmt::format("--stop-after {}: --size and --angle come after it", arguments.stop_after));
 }
 
-/// delaunay, partition, or swap=K: after K swaps.
+/// "delaunay", "partition", or "swap=K" to stop after K swaps.
 void set_stage(const std::string& text, PlaneOptions& options) {
   const std::string stage = text.substr(0, text.find('='));
   options.stop_after = named<PlaneStage>("--stop-after", stage);
@@ -128,7 +128,7 @@ Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
                           !arguments.stop_after.empty());
 }
 
-/// What refinement did and what it left.
+/// Reports what refinement did and what is left.
 void tell_of_refinement(const PlaneArguments& arguments, const PlaneReport& report) {
   if (!arguments.size && !arguments.angle) return;
   say("added: {} inside, {} on segments; the least angle is {:.2f} degrees\n",
@@ -146,7 +146,7 @@ void tell_of_refinement(const PlaneArguments& arguments, const PlaneReport& repo
         counted(arguments.max_points, "point is", "points are"));
 }
 
-/// Says how the run ended and what the user can do; returns the exit code.
+/// Reports how the run ended and what the user can do; returns the exit code.
 int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
   if (result.outcome == Outcome::done) {
     if (!arguments.quiet)
@@ -165,7 +165,7 @@ int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
   return exit_invalid_surface;
 }
 
-/// Names the files of a run, so that none is lost.
+/// Names the files of a run, so that none is overwritten.
 WriteOptions target_of(FilesOfRun& files, const PlaneArguments& arguments) {
   files.read_points(arguments.input, arguments.input_format);
   WriteOptions writing;

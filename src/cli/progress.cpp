@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t most_bar_width = 40;
 constexpr std::chrono::milliseconds redraw_after{100};
-// Of the whole command: where the mesher begins and ends. Before and after it files are read and written.
+// The mesher's part of the whole command. Files are read before it and written after it.
 constexpr double mesher_begins = 0.02, mesher_ends = 0.96;
-// A repair before it; while the mesher has not come so far yet, the bar waits.
+// The end of a repair before the mesh; the bar waits until the mesher has got this far.
 constexpr double repair_ends = 0.2;
 
 double share_of_mesher(double fraction) {
@@ -56,7 +56,7 @@ bool ProgressView::repairing(double fraction) {
 }
 
 bool ProgressView::tell(int order, const char* what, double share) {
-  // Some stages and steps take turns; each is told when it first begins.
+  // Some stages and steps alternate; each is printed when it first begins.
   const bool first_time = !order_ || *order_ < order;
   if (first_time) order_ = order;
   if (show_ == Show::lines && first_time) say("[{:8.2f} s] {}\n", seconds(), what);
@@ -77,7 +77,7 @@ void ProgressView::show_bar(const char* what, bool at_once) {
   if (show_ != Show::bar || (!at_once && now - drawn_ < redraw_after)) return;
   drawn_ = now;
   const std::string left = time_left();
-  constexpr std::size_t beside = 12 + 4 + 5;  // the stage's name, brackets and spaces, percents
+  constexpr std::size_t beside = 12 + 4 + 5;  // the stage's name, brackets and spaces, percentage
   const std::size_t columns = terminal_columns();
   const std::size_t room = columns > beside + left.size() + 1 ? columns - beside - left.size() - 1 : 0;
   const std::size_t width = std::min(room, most_bar_width);
@@ -96,7 +96,7 @@ double ProgressView::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
 }
 
-// As if what is left took as long, in proportion, as what is done: told on runs above a few seconds.
+// Extrapolates from the work done; shown on runs that take more than a few seconds.
 std::string ProgressView::time_left() const {
   constexpr double too_soon = 2, too_little = 0.05;
   const double done = seconds();

@@ -1,4 +1,4 @@
-// What the user sees while a mesh is made.
+// The progress of a mesh as the user sees it.
 #pragma once
 
 #include <chrono>
@@ -16,11 +16,11 @@ enum class Show {
   lines,  ///< one line a stage
 };
 
-/// What suits --quiet and --verbose: a bar where standard error is a terminal, if neither was given.
+/// The display for --quiet and --verbose: by default a bar if stderr is a terminal.
 [[nodiscard]] Show how_to_show(bool quiet, bool verbose);
 
-/// Shows progress on stderr and hears Ctrl-C; the progress callback of `mesh` and `untangle`. The bar is one
-/// for the whole command and never goes back.
+/// Shows progress on stderr and obeys Ctrl-C; the progress callback of `mesh` and `untangle`. One bar covers
+/// the whole command and never goes back.
 class ProgressView {
  public:
   explicit ProgressView(Show show);
@@ -28,15 +28,15 @@ class ProgressView {
   ProgressView(const ProgressView&) = delete;
   ProgressView& operator=(const ProgressView&) = delete;
 
-  /// False when the user asked to stop.
+  /// Returns false if the user asked to stop.
   bool operator()(const Progress& progress);
   bool operator()(const UntangleProgress& progress);
-  /// Of the repair before the mesh. False when the user asked to stop.
+  /// For the repair before the mesh. Returns false if the user asked to stop.
   bool repairing(double fraction);
-  /// Files are read or written, which takes long for large ones and tells nothing meanwhile.
+  /// Files are being read or written; for large ones this takes long and has no progress of its own.
   void reading();
   void writing();
-  /// Takes the bar off the terminal.
+  /// Removes the bar from the terminal.
   void finish();
 
  private:
@@ -46,7 +46,7 @@ class ProgressView {
   [[nodiscard]] std::string time_left() const;
 
   Show show_;
-  std::optional<int> order_;  // of what was told last
+  std::optional<int> order_;  // of the last message
   double share_ = 0;          // of the whole command
   std::size_t drawn_columns_ = 0;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();

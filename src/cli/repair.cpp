@@ -1,4 +1,4 @@
-// `holdfast repair`: any surface in, a valid one out.
+// `holdfast repair`: makes a valid surface of any surface.
 #include "holdfast/repair.h"
 
 #include <CLI/CLI.hpp>
@@ -61,7 +61,7 @@ Json options_of(const RepairArguments& arguments) {
           {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
 }
 
-/// Says how the run ended and what the user can do; returns the exit code.
+/// Reports how the run ended and what the user can do; returns the exit code.
 int conclude(const RepairArguments& arguments, const Surface& given, const RepairResult& result) {
   switch (result.outcome) {
     case Outcome::done:
@@ -85,7 +85,7 @@ int conclude(const RepairArguments& arguments, const Surface& given, const Repai
   return exit_internal_error;
 }
 
-/// The surface as it came, with its defects, and as it is now.
+/// Shows the given surface, with its defects, and the repaired one.
 void write_html(const RepairArguments& arguments, const Limits& limits, const Surface& before,
                 const RepairResult& result, const Json& report) {
   if (arguments.html.empty()) return;
@@ -114,7 +114,7 @@ std::vector<bool> in_use(const Surface& surface) {
   return used;
 }
 
-/// Vertices of the input stay where all that they belonged to goes.
+/// Reports vertices of the input that are kept although a union drops everything on them.
 void tell_what_union_leaves(const Surface& before, const Surface& after) {
   if (after.facets.empty() && !before.facets.empty())
     say("note: no triangle is left, as no connected part of the input encloses anything; `holdfast diagnose` "
@@ -127,7 +127,7 @@ void tell_what_union_leaves(const Surface& before, const Surface& after) {
         counted(alone, "vertex belongs", "vertices belong"));
 }
 
-/// `result` is what is known, should a limit end it.
+/// `result` has what is known if a limit ends the run.
 int repair_files(const RepairArguments& arguments, const RepairOptions& options, const WriteOptions& writing,
                  RepairResult& result) {
   const Surface surface =
@@ -147,7 +147,7 @@ int repair_files(const RepairArguments& arguments, const RepairOptions& options,
     write_parents(arguments.parents, surface.facets.size(), result);
   }
   write_exact(arguments.exact, surface, result);
-  if (!arguments.report.empty() || !arguments.html.empty()) {  // it names the parents of each triangle
+  if (!arguments.report.empty() || !arguments.html.empty()) {  // the page shows the parents of each triangle
     const Json report = to_json(result, options_of(arguments));
     write_json(arguments.report, report);
     write_html(arguments, options, surface, result, report);

@@ -31,7 +31,7 @@ std::optional<DropReason> reason_with_name(std::string_view text) {
   return std::nullopt;
 }
 
-/// The lines of a file of parents.
+/// Reads the lines of a file of parents.
 class ParentsFile {
  public:
   explicit ParentsFile(const std::filesystem::path& path) : path_(path) {
@@ -151,8 +151,8 @@ RepairClaims claims_of_report(const Json& report) {
     if (options->contains("weld")) claims.weld = options->at("weld").get<double>();
     if (options->contains("join")) claims.join = options->at("join").get<double>();
     if (options->contains("union")) claims.unite = options->at("union").get<bool>();
-    // That of `paste`, as it was given. Vertices may move further where coordinates are rounded more
-    // coarsely.
+    // The tolerance of `paste`, as the user gave it. Coarser rounding of coordinates may move vertices
+    // further.
     if (const auto tolerance = options->find("tolerance");
         tolerance != options->end() && tolerance->is_string())
       claims.join = tolerance_of(tolerance->get<std::string>(), "tolerance");
@@ -175,7 +175,7 @@ std::string list_of(std::span<const Index> parents) {
   return parents.empty() ? "none" : fmt::format("{}", fmt::join(parents.begin(), parents.end(), ", "));
 }
 
-/// Where the file of parents and the report say different things.
+/// Where the file of parents and the report disagree.
 std::vector<std::string> disagreements(const RepairClaims& file, const RepairClaims& report) {
   std::vector<std::string> found;
   if (file.max_displacement != report.max_displacement)
@@ -211,8 +211,8 @@ std::vector<std::string> disagreements(const RepairClaims& file, const RepairCla
   return found;
 }
 
-/// Lines behind those of facets become parents of segments; those of isolated vertices, which have none and
-/// come last, go.
+/// Turns the lines after those of facets into parents of segments, and drops those of isolated vertices,
+/// which come last and have no parents.
 void take_segments(RepairClaims& claims, std::size_t input_facets, const Surface& output) {
   const std::size_t output_facets = output.facets.size();
   std::size_t lines = claims.parents.size();

@@ -1,4 +1,4 @@
-// What the files of `repair` claim: --parents and --report.
+// The claims in the files of `repair`: --parents and --report.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,8 @@ struct ReadClaims {
   std::vector<std::string> disagreements;  ///< of the two files, one sentence each
 };
 
-/// Reads either file, or both; the first counts where they differ. Lines of the file of parents behind those
-/// of the output's facets are its segments'; segments of the input are numbered behind its facets. Throws
-/// FileError.
+/// Reads either file or both; the file of parents counts where they differ. Its lines after those of the
+/// output's facets belong to segments; segments of the input are numbered after its facets. Throws FileError.
 [[nodiscard]] ReadClaims read_claims(const std::filesystem::path& parents,
                                      const std::filesystem::path& report, const Surface& input,
                                      const Surface& output);

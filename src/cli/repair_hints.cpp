@@ -9,7 +9,7 @@
 namespace holdfast::cli {
 namespace {
 
-/// The last bit of the largest coordinate.
+/// The unit in the last place of the largest coordinate.
 double last_bit(const Surface& surface) {
   double most = 0;
   for (const Point& p : surface.vertices)
@@ -18,7 +18,7 @@ double last_bit(const Surface& surface) {
   return std::nextafter(most, std::numeric_limits<double>::infinity()) - most;
 }
 
-/// How many of the sides of triangles are no longer than that, in parts of all.
+/// The share of all triangle sides that are not longer than `length`.
 double share_of_sides(const Surface& surface, double length) {
   std::size_t sides = 0, shorter = 0;
   for (const Triangle& t : surface.facets)
@@ -32,7 +32,7 @@ double share_of_sides(const Surface& surface, double length) {
   return sides == 0 ? 0 : static_cast<double>(shorter) / static_cast<double>(sides);
 }
 
-/// The least power of ten that is not below.
+/// The least power of ten that is not less than `length`.
 double power_of_ten_above(double length) { return std::pow(10, std::ceil(std::log10(length))); }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::string what_may_help(const Surface& given, const RepairOptions& options) {
                          100 * share, options.weld);
     return fmt::format("another length than --weld {}, or none, may help", options.weld);
   }
-  // Where nothing else helps, `repair` makes one of vertices that are so near.
+  // As a last resort, `repair` has already merged vertices this close.
   constexpr double kTried = 0x1p32;
   const double tried = kTried * last_bit(given);
   return fmt::format(

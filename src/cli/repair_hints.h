@@ -1,4 +1,4 @@
-// What may help where a repair does not do what was asked for.
+// Hints for a repair that fails or does not do what was asked for.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace holdfast::cli {
 
-/// What to try where no rounding was found: a sentence that names an option, and a length where there is one
-/// to begin with.
+/// A sentence on what to try if no rounding was found: it names an option and, if possible, a length to begin
+/// with.
 [[nodiscard]] std::string what_may_help(const Surface& given, const RepairOptions& options);
 
-/// That a length for `--weld` is less than what two places can be apart; empty where it is not.
+/// Says that a length for `--weld` is less than the least distance of two places; empty if it is not.
 [[nodiscard]] std::string told_below_last_bit(const Surface& given, double weld);
 
 }  // namespace holdfast::cli

@@ -1,4 +1,4 @@
-// `--fill-holes [N]` and `--union`: what a repair does beside cutting, on the command line.
+// `--fill-holes [N]` and `--union`: what a repair does besides cutting, on the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,12 +15,12 @@ struct RepairWays {
   bool unite = false;
 };
 
-/// Adds the options; `beside` stands before their help, for a command that repairs only where it is asked to.
+/// Adds the options; `beside` precedes their help, for a command that repairs only on request.
 void add_repair_ways(CLI::App& command, RepairWays& ways, const std::string& beside = {});
 
 void take_repair_ways(const RepairWays& ways, RepairOptions& options);
 
-/// A number of sides as reports have it; null for none.
+/// The number of sides for reports; null for none.
 [[nodiscard]] Json sides_to_json(const std::optional<std::size_t>& most);
 
 }  // namespace holdfast::cli

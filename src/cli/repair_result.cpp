@@ -12,7 +12,7 @@
 namespace holdfast::cli {
 namespace {
 
-/// How many vertices nothing uses that are vertices of a mesh all the same.
+/// The number of vertices that belong to nothing but are vertices of a mesh all the same.
 std::size_t isolated_vertices(const Surface& surface) {
   std::vector<bool> used(surface.vertices.size(), false);
   for (const Triangle& t : surface.facets)
@@ -38,7 +38,7 @@ const char* explanation(OpenReason reason) {
   return "";
 }
 
-/// How many holes stay open for each reason, with a vertex of the first.
+/// The number of holes left open for each reason, with a vertex of the first.
 std::string open_holes_of(const RepairResult& result) {
   std::string text;
   for (const OpenReason reason : values_of<OpenReason>()) {

@@ -5,10 +5,10 @@
 namespace holdfast::cli {
 namespace {
 
-// A signal handler can reach nothing but globals.
+// A signal handler can only use globals.
 volatile std::sig_atomic_t cancelled = 0;
 
-// Made before a handler is.
+// Must be created before a handler is set.
 const CancelToken& token() {
   static const CancelToken only;
   return only;
@@ -30,8 +30,7 @@ void fail_rather_than_die() {
 void cancel_by_flag() {
   token();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    // Whoever started the program may have them ignored, as `nohup` does and shells for what runs in the
-    // background.
+    // The caller may have set signals to be ignored, as `nohup` does, and shells for background jobs.
     const auto before = std::signal(signal, set_flag);
     if (before == SIG_IGN) std::signal(signal, SIG_IGN);
   }

@@ -1,21 +1,21 @@
-// Ctrl-C, termination requests, and signals that stand for errors.
+// Ctrl-C, termination requests, and signals that indicate errors.
 #pragma once
 
 #include "holdfast/limits.h"
 
 namespace holdfast::cli {
 
-/// From now on writing to a pipe that nobody reads, or beyond the largest size of a file, is an error of that
-/// call, which has its exit code, and ends nothing else.
+/// Turns writing to a closed pipe, or beyond the file size limit, into an error of that call with its exit
+/// code, which otherwise would kill the program.
 void fail_rather_than_die();
 
-/// From now on SIGINT, SIGTERM and SIGHUP only set the flag that `cancel_requested` reads; a second one of
-/// them ends the program at once.
+/// Makes SIGINT, SIGTERM and SIGHUP only set the flag that `cancel_requested` reads; the same signal a second
+/// time ends the program at once.
 void cancel_by_flag();
 
 [[nodiscard]] bool cancel_requested();
 
-/// Cancelled with the flag: for calls that are given limits alone.
+/// A token cancelled together with the flag, for calls that only take limits.
 [[nodiscard]] const CancelToken& cancel_token();
 
 }  // namespace holdfast::cli

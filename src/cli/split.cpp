@@ -1,4 +1,4 @@
-// `holdfast split`: a surface into parts that are meshed apart.
+// `holdfast split`: splits a surface into parts that are meshed separately.
 #include <fmt/core.h>
 
 #include <memory>
@@ -69,7 +69,7 @@ Json json_of_part(const SurfacePart& part, const fs::path& file, std::size_t k, 
           {"sizes", sizes}};
 }
 
-/// All files, or none; the manifest last: until then the folder is none of a division.
+/// Writes all files or none. The manifest is last: without it, the folder is no division.
 void write_division(const SplitArguments& arguments, const Surface& surface, const SurfaceDivision& division,
                     const Limits& limits) {
   StagedFolder staged(arguments.folder);
@@ -115,8 +115,7 @@ bool is_part(const fs::path& file) {
   return file.filename().string().starts_with("part_") && file.extension() == ".poly";
 }
 
-/// The files of the division, none of which may be read: its manifest, and of the others those that are
-/// there.
+/// Names the files of the division, none of which may be an input: its manifest, and the others that exist.
 void name_files(const fs::path& folder, FilesOfRun& files) {
   files.write("-o", folder / manifest_name, true);
   std::error_code ignored;
@@ -125,7 +124,8 @@ void name_files(const fs::path& folder, FilesOfRun& files) {
   }
 }
 
-/// Parts of an earlier division that had more: a pattern such as `part_*.poly` takes them for ones of this.
+/// Reports parts left from an earlier division with more parts: a pattern such as `part_*.poly` would include
+/// them.
 void tell_left_parts(const fs::path& folder, std::size_t parts) {
   std::set<fs::path> names, left;
   for (std::size_t k = 0; k < parts; ++k) names.insert(numbered(k, parts, ".poly"));

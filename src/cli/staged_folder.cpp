@@ -19,7 +19,7 @@ namespace {
   throw FileError(path, "", what + ": " + error.message());
 }
 
-/// The outermost folder of a path that is not there yet; empty if the path is.
+/// The outermost folder of a path that does not exist; empty if the path exists.
 fs::path first_missing(const fs::path& path) {
   std::error_code ignored;
   fs::path missing;
@@ -47,7 +47,7 @@ StagedFolder::~StagedFolder() {
   std::error_code ignored;
   fs::remove_all(staging_, ignored);
   if (made_.empty()) return;
-  // Only what is empty goes.
+  // `remove` only removes empty folders.
   for (fs::path p = folder_; fs::remove(p, ignored) && p != made_; p = p.parent_path()) continue;
 }
 

@@ -1,4 +1,4 @@
-// Files of one folder that appear there together: all of them, or none.
+// Files of one folder that appear together: all or none.
 #pragma once
 
 #include <filesystem>
@@ -6,23 +6,22 @@
 
 namespace holdfast::cli {
 
-/// A folder beside the final places of its files, which are renamed once all are complete. Until then the
-/// destructor removes it, and those folders above it that it had to make, so that an exception leaves
-/// nothing.
+/// A temporary folder beside the final places of its files, which are renamed when all are complete. Until
+/// then the destructor removes it and the folders above it that it created, so an exception leaves nothing.
 class StagedFolder {
  public:
-  /// `folder` need not be there. Throws FileError.
+  /// `folder` need not exist. Throws FileError.
   explicit StagedFolder(const std::filesystem::path& folder);
   ~StagedFolder();
   StagedFolder(StagedFolder&&) = delete;
 
-  /// Where a file of this name stands until then.
+  /// The temporary path of a file of this name.
   [[nodiscard]] std::filesystem::path of(const std::filesystem::path& name) const { return staging_ / name; }
-  /// Has a file written there. What FileError tells of it is told by the name that it would have got.
+  /// Calls `write` with that path. A FileError names the final path instead.
   void write(const std::filesystem::path& name,
              const std::function<void(const std::filesystem::path&)>& write) const;
-  /// Gives all files their names; `last`, which tells of the others, is none of the old folder's while they
-  /// change. Throws FileError.
+  /// Moves all files to their final names. `last`, which lists the others, is removed first and moved last.
+  /// Throws FileError.
   void publish(const std::filesystem::path& last);
 
  private:

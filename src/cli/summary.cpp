@@ -43,7 +43,7 @@ void print_field(const Report::Field& field) {
   say("\n");
 }
 
-/// The angles by which elements are judged: with a metric, as it sees them.
+/// The angles that judge elements; with a metric, measured in it.
 struct Angles {
   double least;
   std::size_t below_10_deg;
@@ -52,11 +52,11 @@ struct Angles {
 
 Angles angles_of(const Report& report, bool with_metric) {
   if (!with_metric) return {report.elements.min_dihedral_deg, report.elements.below_10_deg, false};
-  const auto& bins = report.field.after.least_dihedral;  // of 5 degrees
+  const auto& bins = report.field.after.least_dihedral;  // bins of 5 degrees
   return {report.field.after.min_dihedral_deg, bins[0] + bins[1], true};
 }
 
-/// Why elements are as flat as they are.
+/// The reason for flat elements.
 std::string reason_for(const Report& report, bool with_field_points, const Angles& angles) {
   if (!with_field_points)
     return "without field points, elements span what lies between the surface's vertices";
@@ -72,7 +72,7 @@ std::string reason_for(const Report& report, bool with_field_points, const Angle
 }
 
 std::string quality_of(const Result& result, const Options& options) {
-  constexpr double least_good = 1, most_below = 0.05;  // degrees, and a share of the elements
+  constexpr double least_good = 1, most_below = 0.05;  // in degrees, and as a share of the elements
   const Angles angles = angles_of(result.report, options.sizes && options.sizes->metric);
   const double below = static_cast<double>(angles.below_10_deg) /
                        static_cast<double>(std::max<std::size_t>(1, result.report.tetrahedra));
@@ -83,7 +83,7 @@ std::string quality_of(const Result& result, const Options& options) {
   return text;
 }
 
-/// What --keep auto came to. Why there are no winding numbers is a warning, if triangles are turned.
+/// The rule that --keep auto chose. If triangles are turned, a warning says why there are no winding numbers.
 std::string decided_rule(const Result& result) {
   const Report& report = result.report;
   if (report.keep == Keep::automatic) return {};

@@ -1,4 +1,4 @@
-// What `holdfast mesh` says on standard error when it is done.
+// The messages of `holdfast mesh` on stderr at the end.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace holdfast::cli {
 
-/// "1 point", "2 points".
+/// For example "1 point" or "2 points".
 [[nodiscard]] std::string counted(std::size_t count, const std::string& one, const std::string& many);
 [[nodiscard]] inline std::string counted(std::size_t count, const std::string& one) {
   return counted(count, one, one + "s");
@@ -16,10 +16,10 @@ namespace holdfast::cli {
 /// The counts of a run, line by line.
 void print_details(const Report& report);
 
-/// Warnings and what was decided for the user, a line each.
+/// Prints warnings and decisions made for the user, one line each.
 void print_decisions(const Result& result);
 
-/// One line that ends a run: the volume, its quality, and why that is bad if it is.
+/// Prints the line that ends a run: the volume, its quality, and why it is bad, if so.
 void print_summary(const MeshArguments& arguments, const Options& options, const Result& result,
                    double seconds);
 

@@ -1,4 +1,4 @@
-// What `repair` and `paste` write: a surface, and an account of what it was made of.
+// The output of `repair` and `paste`: a surface, and an account of its origin.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,14 +14,14 @@ struct SurfaceOutput {
   std::string format;
 };
 
-/// -o.
+/// Adds -o.
 void add_surface_output(CLI::App& command, SurfaceOutput& output);
-/// --parents and --report.
+/// Adds --parents and --report.
 void add_account(CLI::App& command, SurfaceOutput& output);
-/// --format.
+/// Adds --format.
 void add_surface_format(CLI::App& command, SurfaceOutput& output);
 
-/// Writes the surface and, unless `quiet`, says what its format does not hold. Throws FileError and
+/// Writes the surface and, unless `quiet`, reports what its format does not hold. Throws FileError and
 /// Interrupted.
 void write_and_tell(const SurfaceOutput& output, const Surface& surface, const WriteOptions& options,
                     bool quiet);

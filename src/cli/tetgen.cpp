@@ -1,4 +1,4 @@
-// `holdfast tetgen`: TetGen's switches, files in and files out.
+// `holdfast tetgen`: accepts TetGen's switches and files.
 #include "holdfast/tetgen.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Options to_options(const TetgenArguments& arguments, const TetgenSwitches& switc
   Options options;
   static_cast<Limits&>(options) = limits_of(arguments.limits);
   options.threads = arguments.threads;
-  options.keep = Keep::bounded;  // as TetGen: a void is told by a hole
+  options.keep = Keep::bounded;  // as in TetGen, where a void needs a hole
   options.drop_outside = true;
   options.holes = input.surface.holes;
   options.regions = bounds_of_regions(input.surface.regions, switches.volume_by_region);
@@ -74,7 +74,7 @@ TetgenFiles files_of(const TetgenSwitches& switches, const TetgenInput& input, c
   return files;
 }
 
-/// What is not as with TetGen, a line each.
+/// Reports the differences from TetGen, one line each.
 void tell_differences(const TetgenSwitches& switches, const TetgenInput& input) {
   if (!switches.idle.empty())
     say("holdfast: switches without a counterpart here are passed over: {}\n", switches.idle);
@@ -87,7 +87,7 @@ void write_report(const TetgenArguments& arguments, const Result& result) {
   if (!arguments.report.empty()) write_json(arguments.report, to_json(result, {{"words", arguments.words}}));
 }
 
-/// Exit 4 where the surface crosses itself or breaks another rule; what breaks one goes to NAME.1.face.
+/// Returns 4 if the surface crosses itself or breaks another rule; writes the faulty facets to NAME.1.face.
 int detect(const TetgenArguments& arguments, const TetgenSwitches& switches, const TetgenInput& input,
            const TetgenFiles& names, const Limits& limits, const FilesOfRun& files, Result& result) {
   DiagnoseOptions options;
@@ -131,7 +131,7 @@ int conclude(const TetgenInput& input, const Result& result) {
   return exit_limit;
 }
 
-/// C: the promise, verified by other code than that of the mesher.
+/// Switch C: verifies the promise with code other than the mesher's.
 int verify(const TetgenSwitches& switches, const TetgenInput& input, const Volume& volume,
            const FilesOfRun& files) {
   CheckOptions options;
@@ -159,7 +159,7 @@ void tell_the_end(const TetgenSwitches& switches, const TetgenInput& input, cons
     say("bounds: {}\n", bounds);
 }
 
-/// The tetrahedra alone, as TetGen's .vtk has them.
+/// Only the tetrahedra, as in TetGen's .vtk.
 Volume without_surface(const Volume& volume) {
   Volume bare;
   bare.vertices = volume.vertices;
@@ -183,7 +183,7 @@ void write_all(const TetgenInput& input, const Volume& volume, const TetgenFiles
   if (!viewers.medit.empty()) write_volume(viewers.medit, volume, writing);
 }
 
-/// TetGen's -o2.
+/// TetGen's switch -o2.
 void add_nodes(Volume& volume, const TetgenSwitches& switches, const Limits& limits) {
   add_mid_nodes(volume, limits);
   tell_not_positive(volume, limits, switches.quiet);
@@ -227,7 +227,7 @@ int join_points(const TetgenArguments& arguments, const TetgenSwitches& switches
   return exit_done;
 }
 
-/// The switches come first, with a dash; without one where two words are left.
+/// The switches come first, with a dash, which may be missing if two words are left.
 std::filesystem::path take_words(const TetgenArguments& arguments, TetgenSwitches& switches) {
   std::vector<std::string> rest;
   for (const std::string& word : arguments.words)
@@ -245,7 +245,7 @@ std::filesystem::path take_words(const TetgenArguments& arguments, TetgenSwitche
   return rest.front();
 }
 
-/// `result` is what is known, should a limit end it.
+/// `result` has what is known if a limit ends the run.
 int work_on_input(const TetgenArguments& arguments, const TetgenSwitches& switches, TetgenInput& input,
                   TetgenFiles names, const Viewers& viewers, const Limits& limits, const FilesOfRun& files,
                   Result& result) {
@@ -287,7 +287,7 @@ int run(const TetgenArguments& arguments) {
       limits,
       [&] {
         read_input(input, switches, reading(limits, {}, arguments.tolerance));
-        names = files_of(switches, input, command);  // what the file holds is known now
+        names = files_of(switches, input, command);  // the file is read, so its contents are known
         static_cast<Limits&>(names) = limits;
         names.progress = goes_on;
         return work_on_input(arguments, switches, input, names, viewers, limits, files, result);

@@ -31,7 +31,7 @@ std::string ending_of(const fs::path& path) {
   return ending;
 }
 
-/// "part.1.poly" is a second step to "part.2".
+/// The output of "part.1.poly" is "part.2".
 fs::path next_name(const fs::path& stem) {
   const std::string text = stem.filename().string();
   const std::size_t dot = text.rfind('.');
@@ -91,7 +91,7 @@ TetgenInput find_input(const fs::path& file, const TetgenSwitches& switches) {
 void read_input(TetgenInput& input, const TetgenSwitches& switches, const ReadOptions& options) {
   input.surface = read_surface(input.path, options);
   input.first = tetgen_first_number(input.path);
-  // Bounds on volumes are taken as such here, not as sizes.
+  // Here bounds on volumes are bounds, not sizes.
   std::erase_if(input.surface.remarks, [](const Remark& r) { return r.kind == RemarkKind::size_limits; });
   if (!switches.quiet) tell(input.surface.remarks);
   if (!switches.insert) return;
@@ -119,7 +119,8 @@ void read_sizes(const TetgenInput& input, const ReadOptions& options, Sizes& siz
 }
 
 std::vector<RegionSeed> bounds_of_regions(std::vector<RegionSeed> seeds, bool bounded) {
-  // The size is the edge of the regular tetrahedron of that volume, rounded: so a little less is below it.
+  // The size is the rounded edge of the regular tetrahedron of that volume; slightly less keeps volumes below
+  // the bound.
   constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
   constexpr double kBelow = 1 - 1e-14;
   for (RegionSeed& seed : seeds) {

@@ -22,10 +22,10 @@ const std::map<char, const char*> kRefused{
     {'D', "there is no conforming Delaunay mesh"},
     {'S', "the number of added points cannot be bounded"},
 };
-// Of speed, tolerances or words alone.
+// Switches that only concern speed, tolerances or messages.
 constexpr const char* kIdle = "OTMXLsbxljPHKGU";
 
-/// One switch after another, each with the number behind it.
+/// Reads one switch after another, each with the number that follows it.
 class Reader {
  public:
   Reader(const std::string& text, TetgenSwitches& to) : text_(text), to_(to) {
@@ -49,7 +49,7 @@ class Reader {
     throw UsageError(fmt::format("tetgen {}: switch {}: {}", text_, letter_, why));
   }
 
-  // An e belongs to the number where digits follow; else it is the switch of that name.
+  // An e followed by digits belongs to the number; otherwise it is the switch e.
   std::string take_number() {
     const std::size_t start = at_;
     bool digits = false;

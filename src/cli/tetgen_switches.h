@@ -38,8 +38,8 @@ struct TetgenSwitches {
   [[nodiscard]] bool has_sizes() const { return refine || max_volume || volume_by_region || size_field; }
 };
 
-/// Reads "-pq1.4a0.1AY"; several are one. Throws UsageError for switches that there are not, and for those
-/// that Holdfast does not have, with the reason.
+/// Reads switches such as "-pq1.4a0.1AY"; several texts act as one. Throws UsageError for unknown switches,
+/// and for those that Holdfast does not support, with the reason.
 void read_switches(const std::string& text, TetgenSwitches& switches);
 
 }  // namespace holdfast::cli

@@ -1,4 +1,4 @@
-// `holdfast untangle`: a tangled volume in, a positive one with the same boundary out.
+// `holdfast untangle`: makes a tangled volume positive and keeps its boundary.
 #include "holdfast/untangle.h"
 
 #include <fmt/core.h>
@@ -52,7 +52,7 @@ Json report_of(const UntangleArguments& arguments, const UntangleResult& result)
                           {"memory_limit", arguments.memory_limit.value_or(0)}});
 }
 
-/// Says how the run ended and what the user can do; returns the exit code.
+/// Reports how the run ended and what the user can do; returns the exit code.
 int conclude(const UntangleArguments& arguments, const UntangleResult& result) {
   switch (result.outcome) {
     case Outcome::done:
@@ -97,7 +97,7 @@ void print_summary(const UntangleArguments& arguments, const UntangleResult& res
       counted(after.tetrahedra, "tetrahedron", "tetrahedra"));
 }
 
-/// The volume untangled, and as it came.
+/// Shows the untangled volume and the given one.
 void write_html(const UntangleArguments& arguments, const Limits& limits, const Volume& before,
                 const UntangleResult& result, const Json& report) {
   const bool done = result.outcome == Outcome::done;
@@ -117,7 +117,7 @@ void write_html(const UntangleArguments& arguments, const Limits& limits, const 
   page.write();
 }
 
-/// `result` is what is known, should a limit end it.
+/// `result` has what is known if a limit ends the run.
 int untangle_file(const UntangleArguments& arguments, UntangleOptions options, const VolumeTarget& target,
                   UntangleResult& result) {
   std::vector<Remark> remarks;
@@ -146,7 +146,7 @@ int untangle_file(const UntangleArguments& arguments, UntangleOptions options, c
 int run(const UntangleArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   UntangleOptions options = to_options(arguments);
-  options.started = start;  // the limit is on the whole command
+  options.started = start;  // the limit covers the whole command
   FilesOfRun files;
   files.read_volume(arguments.input, arguments.input_format);
   VolumeTarget target = files.write_volume("-o", arguments.output, arguments.format);

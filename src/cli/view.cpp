@@ -1,4 +1,4 @@
-// `holdfast view`: a page that shows surfaces and volumes in a browser.
+// `holdfast view`: makes a page that shows surfaces and volumes in a browser.
 #include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ struct ViewArguments {
   bool quiet = false;
 };
 
-/// A file is a volume if it can hold tetrahedra and does.
+/// A file is a volume if its format can hold tetrahedra and it has some.
 struct Shape {
   std::filesystem::path path;
   Volume volume;
@@ -44,14 +44,14 @@ bool may_be_a_volume(std::filesystem::path path, const std::string& format) {
   return std::find(known.begin(), known.end(), kind) != known.end();
 }
 
-/// A pipe can be read only once, and so as what its format says.
+/// A pipe can be read only once; its format decides how.
 Shape read_shape(const std::filesystem::path& path, const ReadOptions& options, bool quiet) {
   Shape shape{path, {}, {}};
   std::vector<Remark> remarks;
   const bool may_be = may_be_a_volume(path, options.format);
   std::error_code ignored;
   const bool once = descriptor_of(path).has_value() || !std::filesystem::is_regular_file(path, ignored);
-  // A .node alone, without its .ele, is a list of points.
+  // A .node without its .ele is a list of points.
   const bool alone = path.extension() == ".node" &&
                      !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"), ignored);
   if (may_be && !alone) {
@@ -67,7 +67,7 @@ Shape read_shape(const std::filesystem::path& path, const ReadOptions& options, 
   return shape;
 }
 
-/// A name of a page that no other program has: where there is no -o.
+/// A unique name for the page if there is no -o.
 std::filesystem::path temporary_page() {
   std::string name = (std::filesystem::temp_directory_path() / "holdfast-XXXXXX.html").string();
   const int file = mkstemps(name.data(), 5);
@@ -76,7 +76,7 @@ std::filesystem::path temporary_page() {
   return name;
 }
 
-/// Hands the page to the browser of the desktop; false where there is none.
+/// Opens the page in the desktop's browser; returns false if there is none.
 bool open_in_browser(const std::filesystem::path& page) {
   std::string program = "xdg-open", path = page.string();
   char* arguments[] = {program.data(), path.data(), nullptr};

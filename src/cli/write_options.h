@@ -1,4 +1,4 @@
-// Options on how a volume file is written, for every command that writes one.
+// Options for writing a volume file, for every command that writes one.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@ struct WriteArguments {
 
 void add_write_options(CLI::App& command, WriteArguments& arguments);
 
-/// Throws UsageError for an option that does nothing in the target's format.
+/// Throws UsageError for an option that has no effect in the target's format.
 void apply(const WriteArguments& arguments, VolumeTarget& target);
 
 }  // namespace holdfast::cli
