@@ -1,5 +1,5 @@
-// AMF (ISO/ASTM 52915), as XML or packed: objects of volumes, placed by constellations where there are any.
-// Coordinates stay in the unit of the file.
+// AMF (ISO/ASTM 52915), as XML or packed: objects made of volumes, placed by constellations if there are any.
+// Coordinates keep the unit of the file.
 #include <algorithm>
 #include <array>
 
@@ -23,7 +23,7 @@ struct Instance {
   std::array<double, 3> shift{}, degrees{};
 };
 
-/// Turned about x, then y, then z, then moved.
+/// Rotates about x, then y, then z, then translates.
 Placement placement_of(const Instance& instance) {
   Placement result;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -134,7 +134,7 @@ class AmfReader {
     }
   }
 
-  /// Volumes are told apart as the materials of a solid are: by their own name, or else that of the material.
+  /// Volumes are distinguished like the materials of a solid: by their own name or else that of the material.
   void name_volumes(AmfObject& object) {
     for (std::size_t i = 0; i < object.volumes.size(); ++i) {
       const auto found = materials_.find(object.material_of[i]);
@@ -153,7 +153,7 @@ class AmfReader {
       for (const std::string& id : order_) instances_.push_back({id, {}, {}});
     for (const Instance& instance : instances_) {
       const auto found = objects_.find(instance.object);
-      if (found == objects_.end()) continue;  // another constellation
+      if (found == objects_.end()) continue;  // a constellation
       solids_.add(found->second.solid, found->second.solid.name, placement_of(instance));
     }
   }

@@ -1,4 +1,4 @@
-// Writes a file beside its name and renames it, so that a partial file never has that name.
+// Writes a file under a temporary name and renames it, so that the final name never has a partial file.
 #include "io/atomic_writer.h"
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Numbers the temporaries of this process; two writers never share one.
+/// Numbers the temporary files of this process; two writers never share one.
 std::atomic<unsigned> temporaries{0};
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
@@ -31,7 +31,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 
 constexpr int kAttempts = 100;
 
-/// Written in a few milliseconds.
+/// Bytes written in a few milliseconds.
 constexpr std::size_t kChunk = std::size_t{1} << 20;
 
 std::filesystem::path unused_name(const std::filesystem::path& folder) {
@@ -45,8 +45,8 @@ std::string path_of(int descriptor) { return "/proc/self/fd/" + std::to_string(d
 AtomicWriter::AtomicWriter(std::filesystem::path target, Watch* watch)
     : target_(std::move(target)), watch_(watch), written_(target_), buffer_(new char[kBuffer]) {
   std::error_code error;
-  // A link is followed, as every program that opens a file for writing does, also where it leads to
-  // nothing yet; renaming onto the link itself would replace it.
+  // Symbolic links are followed, as by every program that opens a file for writing, even to a file that does
+  // not exist; renaming to the link would replace it.
   constexpr int kMostLinks = 40;
   for (int link = 0;; ++link) {
     if (const std::optional<int> descriptor = descriptor_of(written_)) {
@@ -77,7 +77,7 @@ AtomicWriter::~AtomicWriter() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-// Nobody may read a named pipe yet, which opening would wait for.
+// A named pipe may have no reader yet, for which opening would wait.
 void AtomicWriter::open_in_place(bool is_pipe) {
   constexpr timespec kPause{0, 20'000'000};
   const bool asks = is_pipe && watch_ != nullptr;
@@ -93,21 +93,21 @@ void AtomicWriter::open_in_place(bool is_pipe) {
 
 void AtomicWriter::open_temporary() {
 #ifdef O_TMPFILE
-  // Where the system knows files without a name, nothing is left of one however this process ends. It gets
+  // If the system supports files without a name, none is left behind however this process ends. The file gets
   // its name through the folder of open descriptors.
   file_ = ::open(folder_of(written_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
   if (file_ >= 0 && ::access(path_of(file_).c_str(), F_OK) != 0) ::close(std::exchange(file_, -1));
 #endif
   nameless_ = file_ >= 0;
   if (!nameless_) create_named();
-  // A file that is replaced hands on its permissions; a file system without any is no error.
+  // A replaced file passes on its permissions; a file system without permissions is no error.
   struct stat existing {};
   if (::stat(written_.c_str(), &existing) == 0) static_cast<void>(::fchmod(file_, existing.st_mode & 07777));
 }
 
 void AtomicWriter::create_named() {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    // Its name is kept before there is a file: a constructor that ends by an exception has no destructor.
+    // Store the name before the file exists: a constructor that throws has no destructor.
     temporary_ = unused_name(folder_of(written_));
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ >= 0 || errno != EEXIST) break;
@@ -127,7 +127,7 @@ void AtomicWriter::give_name() {
       return;
     if (errno != EEXIST) break;
   }
-  // A link may be forbidden where a file is not: then the bytes are copied.
+  // A link may be forbidden even if a file is not: then copy the bytes.
   temporary_.clear();
   struct stat status {};
   static_cast<void>(::fstat(file_, &status));
@@ -147,8 +147,7 @@ void AtomicWriter::give_name() {
   ::close(nameless);
 }
 
-// Whether a pipe takes so much that it can be asked again soon: what reads it may do so slowly, or not at
-// all.
+// Whether a pipe has room soon; its reader may be slow or idle.
 bool AtomicWriter::has_room() const {
   constexpr int kMilliseconds = 20;
   pollfd asked{file_, POLLOUT, 0};

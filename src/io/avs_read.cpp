@@ -1,6 +1,6 @@
-// Reads the UCD format of AVS as text (.avs, .ucd; LaGriT and others call it .inp, too): nodes, and cells
+// Reads the UCD format of AVS as text (.avs, .ucd; LaGriT and others name it .inp, too): nodes, and cells
 // with a material (AVS developer's guide, "UCD format"). The material of a cell is its region or marker;
-// values at nodes and of cells are left out.
+// values at nodes and of cells are skipped.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -54,7 +54,7 @@ class AvsReader {
       throw FileError(text_.source().path, "", "the node " + std::to_string(*twice) + " occurs twice");
   }
 
-  /// Number, material, the kind as a word, nodes.
+  /// Reads the number, the material, the kind as a word, and the nodes.
   void read_cell() {
     static_cast<void>(text_.integer("a cell's number"));
     const int material = text_.tag("a material");
@@ -82,7 +82,7 @@ class AvsReader {
   }
 
   void add(std::span<Index> cell, int material) {
-    if (cell.size() == 5) std::rotate(cell.begin(), cell.begin() + 1, cell.end());  // the apex comes first
+    if (cell.size() == 5) std::rotate(cell.begin(), cell.begin() + 1, cell.end());  // the apex is first
     add_cell(mesh_, cell, cell.size(), material);
   }
 

@@ -8,13 +8,13 @@ namespace holdfast::io {
 namespace {
 
 constexpr std::string_view kBlanks = " \t";
-constexpr std::size_t kColumns = 8;  // of a field, and between the stops of tabs
+constexpr std::size_t kColumns = 8;  // of a field, and between tab stops
 
 bool has_blanks(std::string_view text) { return text.find_first_of(kBlanks) != std::string_view::npos; }
 
 bool is_wide(std::string_view head) { return head.find('*') != std::string_view::npos; }
 
-/// The parts of a line that end before columns 8, 8 + width, ..., at most `count` of them.
+/// The parts of a line that are cut at columns 8, 8 + width, ..., at most `count` of them.
 std::vector<std::string_view> in_columns(std::string_view line, std::size_t width, std::size_t count) {
   std::vector<std::string_view> parts;
   std::size_t begin = 0, column = 0, end = kColumns;
@@ -32,7 +32,7 @@ std::vector<std::string_view> in_columns(std::string_view line, std::size_t widt
 
 std::vector<std::string_view> between_blanks(std::string_view line) {
   std::vector<std::string_view> parts;
-  // A line that goes on may have nothing in its first field.
+  // A continued line may have an empty first field.
   if (line.empty() || has_blanks(line.substr(0, 1))) parts.emplace_back();
   for (line = trimmed(line); !line.empty();) {
     const std::size_t end = std::min(line.find_first_of(kBlanks), line.size());
@@ -64,7 +64,7 @@ void BdfCard::add_columns(std::string_view line) {
   std::vector<std::string_view> parts = in_columns(line, wide ? 2 * kColumns : kColumns, count + 1);
   if (!begun_) {
     set_name(parts[0]);
-    // A value holds no blank: these are not in columns.
+    // A value contains no blank, so these fields are not in columns.
     between_blanks_ = has_blanks(name_) || std::any_of(parts.begin() + 1, parts.end(), has_blanks);
     if (between_blanks_) return add_free(between_blanks(line));
   }
@@ -75,7 +75,7 @@ void BdfCard::add_columns(std::string_view line) {
 void BdfCard::add_free(const std::vector<std::string_view>& parts) {
   if (!begun_) set_name(parts[0]);
   const std::size_t count = is_wide(parts[0]) ? 4 : 8;
-  // What stands behind the fields of a line joins it to the next, if it is no value.
+  // A last part that is no value is a continuation mark.
   const bool joined = parts.size() <= count + 1 || parts[count + 1].empty() || is_wide(parts[count + 1]) ||
                       parts[count + 1][0] == '+';
   const std::size_t end = joined ? std::min(parts.size(), count + 1) : parts.size();

@@ -1,6 +1,6 @@
 // Reads Nastran's bulk data, .bdf, .nas and .fem: GRID, CTETRA, CTRIA3, CTRIA6, CTRIAR, CQUAD4 and rods, in
-// fields that bdf_card.h cuts. Properties are regions and markers; names are those that HyperMesh and ANSA
-// write into comments.
+// the fields of bdf_card.h. Properties are regions and markers; names come from the comments of HyperMesh and
+// ANSA.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -49,7 +49,7 @@ class BdfReader {
     std::size_t corners;
   };
 
-  /// The bulk data begins behind BEGIN BULK, or with the file.
+  /// The bulk data begins after BEGIN BULK or, without it, at the start of the file.
   void skip_to_bulk() {
     const std::size_t start = text_.position();
     while (!text_.remaining().empty()) {
@@ -61,7 +61,7 @@ class BdfReader {
     text_.seek(start);
   }
 
-  /// $HMNAME PROP <id>"<name>" or $ANSA_NAME_COMMENT;<id>;<card>;<name>; or what we write of ids.
+  /// Reads $HMNAME PROP <id>"<name>" or $ANSA_NAME_COMMENT;<id>;<card>;<name>, or our comments for ids.
   void read_comment(std::string_view line) {
     if (read_id_comment(line.substr(1), std::array{&regions_, &markers_})) return;
     const std::string lowered = lower(line.substr(0, 20));
@@ -83,7 +83,7 @@ class BdfReader {
     comments_[id] = std::string(name);
   }
 
-  /// The next line that is no comment, without one at its end.
+  /// The next line that is no comment, without a trailing comment.
   bool next_line(std::string_view& line) {
     while (!text_.remaining().empty()) {
       beat(text_.source().watch);
@@ -114,7 +114,7 @@ class BdfReader {
 
   void use_card() {
     const std::string& name = card_.name();
-    static_cast<void>(text_.rest_of_line());  // errors are of the card's line
+    static_cast<void>(text_.rest_of_line());  // errors then name the card's line
     if (name == "grid") {
       read_grid();
     } else if (name == "grdset") {
@@ -158,7 +158,7 @@ class BdfReader {
     mesh_.vertices.push_back(point);
   }
 
-  /// GRDSET, before or behind the grid points, has the coordinate system of those that name none.
+  /// GRDSET, before or after the grid points, sets the coordinate system of those that name none.
   void read_grid_defaults() {
     if (!field(1).empty() && integer_of(text_, field(1), "a coordinate system") != 0)
       default_system_ = place_;
@@ -176,7 +176,7 @@ class BdfReader {
     elements_.push_back(std::move(element));
   }
 
-  /// The id of a property, which its name may tell.
+  /// The id of a property, which its name may contain.
   int id_of_property(NamedIds& names, std::map<int, int>& known, int property) {
     const auto [there, fresh] = known.try_emplace(property, 0);
     if (!fresh) return there->second;

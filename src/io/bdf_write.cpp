@@ -1,6 +1,6 @@
 // Writes Nastran's bulk data, .bdf (MSC Nastran quick reference guide, "Bulk data entries"): coordinates in
-// fields of 16 characters, elements in fields of 8. Properties are the regions and markers; their names stand
-// in comments, as HyperMesh writes them.
+// fields of 16 characters, elements in fields of 8. Properties are the regions and markers, with names in
+// comments as HyperMesh writes them.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -13,14 +13,14 @@ namespace holdfast::io {
 namespace {
 
 constexpr NameRule kNames{64, "_-."};
-constexpr std::int64_t kMost = 99999999;  // of eight digits
+constexpr std::int64_t kMost = 99999999;  // eight digits
 constexpr std::size_t kWide = 16;
 
 struct BdfLabels {
   Labels regions, facets;
 };
 
-/// Properties of shells and of solids have numbers of their own.
+/// Shells and solids have distinct property numbers.
 BdfLabels labels_of(const Volume& volume) {
   const Names& names = volume.names;
   Labels regions = labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), names.regions, kNames,
@@ -31,7 +31,7 @@ BdfLabels labels_of(const Volume& volume) {
   return {std::move(regions), std::move(facets)};
 }
 
-/// Text at the left of a field.
+/// Writes text at the left of a field.
 void field(AtomicWriter& out, std::string_view text, std::size_t width) {
   out << text;
   for (std::size_t i = text.size(); i < width; ++i) out << ' ';
@@ -43,7 +43,7 @@ void field(AtomicWriter& out, std::int64_t value) {
   field(out, std::string_view(digits, static_cast<std::size_t>(result.ptr - digits)), 8);
 }
 
-/// "1.5e-07" as "1.5-7", with a point, as Nastran has it.
+/// "1.5e-07" as "1.5-7", with a point, as Nastran requires.
 std::string without_e(std::string_view number) {
   std::string mantissa(number.substr(0, number.find('e')));
   if (mantissa.find('.') == std::string::npos) mantissa += '.';
@@ -55,7 +55,7 @@ std::string without_e(std::string_view number) {
   return mantissa + sign + std::string(exponent);
 }
 
-/// The double of such a text, which is infinite where rounding up leaves the range.
+/// The double of such a text; infinite if rounding up leaves the range.
 double value_of(std::string number) {
   const std::size_t sign = number.find_last_of("+-");
   if (sign != std::string::npos && sign > 0) number.insert(sign, 1, 'e');
@@ -72,12 +72,12 @@ std::string nastran_real(double value) {
     const auto result = std::to_chars(digits, digits + sizeof digits, value, how...);
     return without_e(std::string_view(digits, static_cast<std::size_t>(result.ptr - digits)));
   };
-  // The shortest text that is exact, if it is short enough.
+  // The shortest exact text, if it fits.
   for (const std::string& exact : {text(), text(std::chars_format::scientific)})
     if (exact.size() <= kWide) return exact;
   const bool plain = std::fabs(value) >= 0.001 && std::fabs(value) < 1e14;
   for (int figures = 15; figures > 0; --figures) {
-    // Without an exponent there is room for more figures.
+    // Without an exponent there is room for more digits.
     const std::string number =
         plain ? text(std::chars_format::fixed, figures) : text(std::chars_format::scientific, figures);
     if (number.size() <= kWide && std::isfinite(value_of(number))) return number;
@@ -89,7 +89,7 @@ std::string nastran_real(double value) {
 
 namespace {
 
-/// Whether a number reads back as it was.
+/// Whether a number reads back unchanged.
 bool is_exact(double value) { return value_of(nastran_real(value)) == value; }
 
 }  // namespace
@@ -107,7 +107,7 @@ void write_bdf(AtomicWriter& out, const Volume& volume) {
       const std::string_view number(digits, static_cast<std::size_t>(result.ptr - digits));
       out << "$HMNAME PROP" << std::string(20 - number.size(), ' ') << number << '"' << name << "\"\n";
     }
-  // Of shells whose property has not the marker's number.
+  // The original markers of shells whose property has another number.
   if (!labels.facets.renumbered.empty()) {
     Labels original = labels.facets;
     original.names.clear();

@@ -14,7 +14,7 @@ namespace {
 
 using Faces = std::initializer_list<std::initializer_list<std::size_t>>;
 
-// In the order of Abaqus's and CalculiX's sides, from S1.
+// In the order of sides in Abaqus and CalculiX, from S1.
 constexpr Faces kHexahedron{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                             {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 constexpr Faces kPrism{{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
@@ -37,7 +37,7 @@ std::size_t& count_of(MeshData::Cells& cells, std::size_t corners) {
   return corners == 8 ? cells.hexahedra : corners == 6 ? cells.prisms : cells.pyramids;
 }
 
-// A face without what is there twice.
+// The corners of a face without repeated ones.
 struct Ring {
   std::array<Index, 4> corners;
   std::size_t count = 0;
@@ -57,7 +57,7 @@ struct Ring {
   }
 };
 
-// The triangles of a ring from its vertex of the lowest index.
+// Calls `use` for the triangles of a ring, as a fan from its lowest vertex.
 template <typename Use>
 void for_each_triangle(const Ring& ring, const Use& use) {
   if (ring.count < 3) return;
@@ -100,7 +100,7 @@ void settle_quadrangles(MeshData& mesh) {
   if (mesh.cells.tetrahedra == 0) return;
   for (const Index first : mesh.quadrangles) {
     Triangle &one = mesh.facets[first], &other = mesh.facets[first + 1];
-    std::size_t i = 0, j = 0;  // of the corners that are not on the diagonal
+    std::size_t i = 0, j = 0;  // indices of the corners not on the diagonal
     while (i < 3 && holds(other, one[i])) ++i;
     while (j < 3 && holds(one, other[j])) ++j;
     if (i == 3 || j == 3) continue;

@@ -1,4 +1,4 @@
-// Open file descriptors that paths name.
+// Paths that name open file descriptors.
 #include "io/descriptor.h"
 
 #include <fcntl.h>

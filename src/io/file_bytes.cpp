@@ -1,4 +1,4 @@
-// A whole file in memory.
+// Reads a whole file into memory.
 #include "io/file_bytes.h"
 
 #include <fcntl.h>
@@ -37,7 +37,7 @@ class Descriptor {
   int number_;
 };
 
-/// Read in a few milliseconds.
+/// Bytes read in a few milliseconds.
 constexpr std::size_t kChunk = std::size_t{4} << 20;
 
 std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax_t size) {
@@ -48,7 +48,7 @@ std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax
   }
 }
 
-/// Refuses what cannot hold a mesh. What someone types is one, other devices have no end.
+/// Refuses what cannot hold a mesh. A terminal is accepted; other devices have no end.
 void require_readable(const std::filesystem::path& path, const struct stat& status, bool is_terminal) {
   if (S_ISDIR(status.st_mode)) throw FileError(path, "", "is a directory, not a file");
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && !is_terminal))
@@ -59,8 +59,8 @@ void require_readable(const std::filesystem::path& path, const struct stat& stat
   throw FileError(path, "", std::string(what) + ": " + std::strerror(errno));
 }
 
-/// Opens a file, or an open descriptor at its place. Nobody may write to a named pipe yet, which opening
-/// would wait for.
+/// Opens a file, or an open descriptor at its position. A named pipe may have no writer yet, for which
+/// opening would wait.
 Descriptor open(const std::filesystem::path& path) {
   struct stat status {};
   int number = -1;
@@ -80,7 +80,7 @@ Descriptor open(const std::filesystem::path& path) {
   return Descriptor(number);
 }
 
-/// How many bytes are left to read; nothing for pipes and the like.
+/// The number of bytes left to read; nullopt for pipes and the like.
 std::optional<std::size_t> size_of(const Descriptor& file) {
   struct stat status {};
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
@@ -88,15 +88,15 @@ std::optional<std::size_t> size_of(const Descriptor& file) {
   return static_cast<std::size_t>(std::max<off_t>(0, status.st_size - std::max<off_t>(0, at)));
 }
 
-/// Until there is something to read from what may have nothing for long, such as a pipe, or its other end is
-/// closed.
+/// Waits until there is something to read or the other end is closed, for pipes and others that may be idle
+/// for long.
 void wait_for_bytes(const Descriptor& file, Watch* watch) {
   constexpr int kMilliseconds = 20;
   pollfd asked{file.number(), POLLIN, 0};
   while (::poll(&asked, 1, kMilliseconds) <= 0) step(watch);
 }
 
-/// At most so many bytes; 0 at the end.
+/// Reads at most `most` bytes; returns 0 at the end.
 std::size_t read_some(const std::filesystem::path& path, const Descriptor& file, char* to, std::size_t most,
                       bool may_wait, Watch* watch) {
   for (;;) {
@@ -124,8 +124,8 @@ std::filesystem::path sibling(const std::filesystem::path& path, const char* ext
 FileBytes::FileBytes(const std::filesystem::path& path, Watch* watch) {
   const Descriptor file = open(path);
   const std::optional<std::size_t> expected = size_of(file);
-  // One byte more than the file has, so that its end shows without growing the buffer; a pipe, or a
-  // file that grows meanwhile, doubles it.
+  // One byte more than the file has shows its end without growing the buffer; for a pipe, or a file that
+  // grows meanwhile, the buffer doubles.
   std::size_t capacity = expected ? *expected + 1 : std::size_t{1} << 16;
   bytes_ = allocate(path, capacity);
   for (;;) {

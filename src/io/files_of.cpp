@@ -1,4 +1,4 @@
-// Which files a name stands for: those of TetGen, glTF, Abaqus, and a mesh with its sizes, come in several.
+// The files that belong to a name: TetGen, glTF and Abaqus use several, and so does a mesh with its sizes.
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -21,10 +21,10 @@ std::string extension_of(const std::filesystem::path& path, std::string_view for
   return extension;
 }
 
-/// Whether the vertices are in the .node file beside: the first number, their count, is 0.
+/// Whether the vertices are in a separate .node file: then the first number, their count, is 0.
 bool has_nodes_beside(const std::filesystem::path& path) {
   std::error_code error;
-  // A pipe is read only once, and a packed file not for this.
+  // A pipe can only be read once, and unpacking a file for this is not worth it.
   if (!std::filesystem::is_regular_file(path, error) || io::without_gz(path) != path) return true;
   std::ifstream file(path, std::ios::binary);
   for (std::string line; std::getline(file, line);) {

@@ -30,7 +30,7 @@ std::vector<Side> sorted_sides(const Volume& volume, Watch& watch) {
   return sides;
 }
 
-/// Faces inside and on the boundary, with their facets.
+/// Finds the inner and boundary faces with their facets.
 void find_faces(const Volume& volume, FoamMesh& mesh, Watch& watch) {
   std::map<Triangle, Index> facet_at;
   for (Index f = 0; f < volume.facets.size(); ++f) facet_at.emplace(ascending(volume.facets[f]), f);
@@ -54,7 +54,7 @@ void find_faces(const Volume& volume, FoamMesh& mesh, Watch& watch) {
 
 bool has_facet(const FoamFace& face) { return face.facet != no_entity; }
 
-/// Faces by patch: those of facets by their ids, then those of none.
+/// Sorts faces by patch: first those on facets, by id, then the others.
 void sort_boundary(FoamMesh& mesh) {
   const auto id_of = [&](const FoamFace& face) { return mesh.facets.ids[face.facet]; };
   std::sort(mesh.boundary.begin(), mesh.boundary.end(), [&](const FoamFace& a, const FoamFace& b) {
@@ -64,7 +64,7 @@ void sort_boundary(FoamMesh& mesh) {
   });
 }
 
-/// Of the faces of no facet: OpenFOAM's own name for them, or a free one like it.
+/// The name of the patch without facets: OpenFOAM's own, or a free one like it.
 std::string name_of_rest(const Labels& facets) {
   std::set<std::string> taken;
   for (const auto& [id, name] : facets.names) taken.insert(name);
@@ -91,9 +91,9 @@ void make_zones(FoamMesh& mesh) {
     if (has_facet(mesh.inside[i])) mesh.zones[mesh.facets.ids[mesh.inside[i].facet]].push_back(i);
 }
 
-// ---- pieces
+// --- Pieces
 
-/// Where a face is among those between pieces.
+/// The position of a face among those between pieces.
 using PlaceOnInterface = std::map<Triangle, std::pair<std::size_t, std::size_t>>;
 
 PlaceOnInterface places_on_interfaces(const MeshPiece& piece) {
@@ -104,7 +104,7 @@ PlaceOnInterface places_on_interfaces(const MeshPiece& piece) {
   return places;
 }
 
-/// Takes the faces between pieces out of the boundary, in their order on both sides.
+/// Moves the faces between pieces out of the boundary, in their common order on both sides.
 std::vector<std::vector<FoamFace>> take_interfaces(FoamMesh& mesh, const MeshPiece& piece) {
   const PlaceOnInterface places = places_on_interfaces(piece);
   std::vector<std::vector<FoamFace>> between;
@@ -135,7 +135,7 @@ void make_patches_of_piece(FoamMesh& mesh, const FoamNames& names) {
   if (names.has_rest) add(name_of_rest(mesh.facets), [](const FoamFace&) { return true; });
 }
 
-/// One a facet or tetrahedron, 0 where there are none.
+/// One id per facet or tetrahedron, 0 if there are no tags.
 std::vector<int> ids_of(const std::vector<int>& tags, std::size_t count) {
   std::vector<int> ids = tags;
   ids.resize(count, 0);

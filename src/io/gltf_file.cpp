@@ -1,4 +1,4 @@
-// A glTF file as its JSON and its numbers.
+// A glTF file as its JSON and its arrays of numbers.
 #include "io/gltf_file.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ constexpr Component kComponents[] = {
     {5122, 2, loaded<std::int16_t>, 32767},       {5123, 2, loaded<std::uint16_t>, 65535},
     {5125, 4, loaded<std::uint32_t>, 4294967295}, {5126, 4, loaded<float>, 1}};
 
-/// Without its escapes of two hexadecimal digits.
+/// Decodes the percent escapes of a URI.
 std::string unescaped_uri(const std::string& uri) {
   std::string result;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -65,7 +65,7 @@ GltfFile::GltfFile(const Source& source) : source_(source), json_end_(source.byt
     fail(*version, "glTF of version " + in_quotes(shown(*version)) + " is not read; save it as 2.0");
 }
 
-/// The binary form: a header, JSON, and a buffer.
+/// Reads the binary form: a header, JSON, and a buffer.
 void GltfFile::read_chunks() {
   ByteReader bytes(source_, std::endian::little, kMagic.size());
   const auto version = bytes.read<std::uint32_t>();
@@ -105,7 +105,7 @@ std::optional<std::size_t> GltfFile::number(const Json& object, std::string_view
   const Json* const found = member(object, key);
   if (found == nullptr) return std::nullopt;
   const std::uint64_t value = found->is_number_unsigned() ? found->get<std::uint64_t>() : kNone;
-  // In a browser sizes have 32 bits.
+  // In a browser, sizes have 32 bits.
   if (value > std::numeric_limits<std::uint32_t>::max() * std::uint64_t{1024} ||
       !std::in_range<std::size_t>(value))
     fail(*found, in_quotes(key) + " is no count or index: " + in_quotes(shown(*found)));
@@ -176,7 +176,7 @@ std::vector<double> GltfFile::values(std::size_t index, std::size_t components) 
         values.push_back(component->load(from.bytes.data() + i * from.stride + k * component->bytes));
     }
   } else if (!has_values(index) || count > source_.bytes.size()) {
-    // Zeros, says the format; but a few bytes could ask for any number of them.
+    // By the format these are zeros, but a few bytes could request any number of them.
     fail(accessor, "the accessor has no values");
   } else {
     values.resize(components * count);
@@ -189,7 +189,7 @@ std::vector<double> GltfFile::values(std::size_t index, std::size_t components) 
   return values;
 }
 
-/// Values that replace some of the others.
+/// Reads values that replace some of the others.
 void GltfFile::read_sparse(const Json& accessor, const Json& sparse, std::size_t count,
                            std::size_t components, std::vector<double>& values) {
   const Json* const places = member(sparse, "indices");
@@ -214,7 +214,7 @@ void GltfFile::read_sparse(const Json& accessor, const Json& sparse, std::size_t
   }
 }
 
-/// `count` elements of so many bytes in the view of a buffer that `user` names.
+/// `count` elements of `bytes` bytes each, in the buffer view that `user` names.
 GltfFile::View GltfFile::view(const Json& user, std::size_t count, std::size_t bytes) {
   const std::optional<std::size_t> index = entry(user, "bufferView", "bufferViews");
   if (!index) fail(user, "expected a bufferView");
@@ -262,7 +262,7 @@ std::string_view GltfFile::external(const Json& uri) {
   return external_.emplace(path, std::make_unique<FileBytes>(path, source_.watch)).first->second->view();
 }
 
-/// Nothing where it names no file beside this one.
+/// The file that a URI names; nullopt if it is not beside this one.
 std::optional<std::filesystem::path> GltfFile::path_of(const std::string& uri) const {
   const std::filesystem::path relative(unescaped_uri(uri));
   if (relative.empty() || uri.starts_with(kInText) || relative.is_absolute() ||

@@ -1,5 +1,5 @@
-// glTF (Khronos, glTF 2.0), as JSON with its buffers beside or in it, and binary: the meshes of the scene,
-// each where its node places it. Axes and the unit are the file's.
+// glTF (Khronos, glTF 2.0), as JSON with buffers beside or in it, and binary: the meshes of the scene, placed
+// by its nodes. Axes and unit are those of the file.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -14,7 +14,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Extensions that change looks, or how numbers are stored in ways that are read.
+/// Extensions that change only appearance, or storage in a way that is supported.
 constexpr std::string_view kHarmless[] = {"KHR_materials_",        "KHR_texture_", "EXT_texture_",
                                           "KHR_lights_",           "KHR_xmp",      "MSFT_texture_",
                                           "KHR_mesh_quantization", "EXT_lights_",  "KHR_animation_"};
@@ -27,7 +27,7 @@ Placement placement_of(const std::vector<double>& m) {
   return {{m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10], m[12], m[13], m[14]}};
 }
 
-/// Scaled, turned by a unit quaternion, and moved.
+/// Scales, rotates by a unit quaternion, and translates.
 Placement placement_of(const std::vector<double>& move, const std::vector<double>& q,
                        const std::vector<double>& scale) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
@@ -65,7 +65,7 @@ class GltfReader {
 
   // --- The scene ---------------------------------------------------------------------------------------
 
-  /// A node that waits to be put, and where its parent is.
+  /// A node to visit, with the placement of its parent.
   struct Waiting {
     std::size_t node;
     Placement outer;
@@ -95,7 +95,7 @@ class GltfReader {
       for (std::size_t m = 0; m < meshes_.size(); ++m) put(m, "", {});
   }
 
-  /// Of the scene that is shown; without scenes all nodes that are no children.
+  /// The roots of the default scene; without scenes, all nodes that are no children.
   [[nodiscard]] std::vector<std::size_t> roots() const {
     const auto scenes = file_.list(file_.root(), "scenes");
     std::vector<std::size_t> roots;
@@ -164,8 +164,8 @@ class GltfReader {
     return name.empty() ? "material " + std::to_string(material) : name;
   }
 
-  /// Primitives may share their numbers, so that what is read grows with the square of the file's length. A
-  /// vertex or a corner takes a byte at least.
+  /// Primitives may share their numbers, so the mesh can grow with the square of the file's length. In an
+  /// honest file, a vertex or a corner takes at least a byte.
   void refuse_a_trap(const Json& primitive, std::size_t more) {
     constexpr std::size_t kHarmless = std::size_t{1} << 22, kMostTimes = 4;
     read_ += more;
@@ -226,7 +226,7 @@ class GltfReader {
     return corners;
   }
 
-  /// Nothing where the primitive has no triangles, which is counted.
+  /// Returns nullopt, and counts the primitive, if it has no triangles.
   std::optional<Mode> mode_of(const Json& primitive) {
     const std::uint64_t number = file_.number(primitive, "mode").value_or(4);
     if (number > 6) file_.fail(primitive, "the mode " + std::to_string(number) + " is none");
@@ -245,13 +245,13 @@ class GltfReader {
       Triangle t{v[i], v[i + 1], v[i + 2]};
       if (mode == Mode::fan) t = {v[0], v[i + 1], v[i + 2]};
       if (mode == Mode::strip && i % 2 == 1) std::swap(t[0], t[1]);
-      // Strips are joined by triangles that name a vertex twice.
+      // Degenerate triangles join strips.
       if (mode == Mode::strip && (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])) continue;
       solid.facets.push_back(t);
     }
   }
 
-  // --- What is left out --------------------------------------------------------------------------------
+  // --- Skipped content ---------------------------------------------------------------------------------
 
   void tell(MeshData& mesh) const {
     std::string names;
@@ -290,13 +290,13 @@ MeshData read_gltf(const Source& source) { return GltfReader(source).read(); }
 std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files{path};
   std::error_code error;
-  // A pipe is read only once.
+  // A pipe can only be read once.
   if (!std::filesystem::is_regular_file(path, error)) return files;
   try {
     const FileBytes bytes(path);
     for (auto& file : GltfFile({path, bytes.view()}).files_beside()) files.push_back(std::move(file));
   } catch (const FileError&) {
-    // The reader says so.
+    // The reader reports it.
   }
   return files;
 }

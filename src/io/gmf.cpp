@@ -1,8 +1,8 @@
 // .meshb and .solb, the binary form of GMF, versions 1 to 4 (Marechal, libMeshb: file format).
 //
-// A file is a chain of sections: keyword, position of the next one, and for most a count and as many
-// entries. Positions have 32 bits in versions 1 and 2, else 64; counts and indices 32 bits up to
-// version 3; coordinates are floats in version 1, else doubles.
+// A file is a chain of sections: a keyword, the position of the next section, and usually a count with as
+// many entries. Positions have 32 bits in versions 1 and 2, and 64 from version 3 on; counts and indices have
+// 32 bits up to version 3; coordinates are floats in version 1 and doubles from version 2 on.
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -95,14 +95,14 @@ class GmfReader {
     return static_cast<int>(value);
   }
 
-  /// Reads one section; whether another follows.
+  /// Reads one section; returns whether another follows.
   bool read_section() {
     const auto keyword = bytes_.read<std::int32_t>();
     if (keyword == kEnd) return false;
     const std::int64_t next = position_word();
     read_entries(keyword);
     if (next == 0) return false;
-    // The chain must go forward, past what was read, or entries could be counted many times.
+    // The chain must go forward, past what was read; otherwise entries could be counted many times.
     const std::size_t end = bytes_.position() + bytes_.left();
     if (next < static_cast<std::int64_t>(bytes_.position()) || static_cast<std::uint64_t>(next) > end)
       bytes_.fail("the next section's position is out of range; the file is truncated or damaged");
@@ -158,7 +158,7 @@ class GmfReader {
         if (!solution_ && keyword != kSolAtVertices)
           mesh_.remarks.push_back({RemarkKind::left_out, 1,
                                    "the section of keyword " + std::to_string(keyword) + " is left out"});
-        return;  // the next section's position leads past it
+        return;  // the position of the next section skips it
     }
   }
 
@@ -168,7 +168,7 @@ class GmfReader {
     const std::size_t vertices = count(axes * (version_ == 1 ? 4 : 8) + integer_size(), "vertices");
     mesh_.vertices.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
-      Point point{};  // in the plane z is 0
+      Point point{};  // z is 0 in the plane
       for (std::size_t axis = 0; axis < axes; ++axis) point[axis] = real();
       mesh_.add_vertex(point, tag());
     }
@@ -210,11 +210,11 @@ class GmfReader {
   bool finite_;
   std::int32_t version_ = 0, dimension_ = 3;
   MeshData mesh_;
-  std::optional<GmfSolution> solution_;  // where it is asked for
+  std::optional<GmfSolution> solution_;  // if requested
 };
 
-/// Writes version 2, which every program reads, where its positions of 32 bits reach, and version 3 beyond,
-/// in the machine's byte order.
+/// Writes version 2, which every program reads, if its 32-bit positions suffice, otherwise version 3, in the
+/// machine's byte order.
 class GmfWriter {
  public:
   explicit GmfWriter(AtomicWriter& out) : out_(out) {}
@@ -248,7 +248,7 @@ class GmfWriter {
 
  private:
   static std::uint64_t size_in_version_2(const Volume& volume) {
-    constexpr std::uint64_t kHeads = 64;  // of the sections, and the ends of the file
+    constexpr std::uint64_t kHeads = 64;  // for the headers of the sections, and the ends of the file
     const MidNodes& mid = volume.mid_nodes;
     return kHeads + 28 * (volume.vertices.size() + mid.points.size()) + 12 * volume.segments.size() +
            16 * volume.facets.size() + 20 * volume.tetrahedra.size() + 4 * mid.segments.size() +
@@ -264,19 +264,19 @@ class GmfWriter {
 
   template <typename T>
   void put(T value) {
-    std::string bytes;  // short enough to need no allocation
+    std::string bytes;  // short enough to avoid an allocation
     store(bytes, value, std::endian::native);
     out_ << bytes;
     position_ += sizeof(T);
   }
 
-  /// Starts a section of `size` bytes behind its head.
+  /// Starts a section with `size` bytes after its header.
   void start(Keyword keyword, std::uint64_t size) {
     put<std::int32_t>(keyword);
     put_position(position_ + (wide_ ? 8 : 4) + size);
   }
 
-  /// With their nodes on edges, in our order, behind the corners, if there are any.
+  /// Writes entities, with the nodes on their edges, if any, after the corners in our order.
   template <std::size_t N, std::size_t M>
   void write_entities(Keyword keyword, const std::vector<std::array<Index, N>>& entities,
                       const std::vector<std::array<Index, M>>& nodes, const std::vector<int>& tags) {
@@ -302,7 +302,7 @@ MeshData read_gmf(const Source& source) { return GmfReader(source).read(); }
 GmfSolution read_gmf_solution(const Source& source) { return GmfReader(source).read_solution(); }
 
 void write_gmf(AtomicWriter& out, const Volume& volume) {
-  // Version 3 counts with 32 signed bits; version 4 would be read by few programs.
+  // Counts have 32 signed bits in version 3, and few programs read version 4.
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
   if (volume.vertices.size() + volume.mid_nodes.points.size() >= kMost || volume.tetrahedra.size() >= kMost ||
       volume.facets.size() >= kMost)

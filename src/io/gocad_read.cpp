@@ -1,6 +1,6 @@
 // GOCAD's text objects (Paradigm, GOCAD ASCII file formats): TSurf, the triangulated surfaces of geology,
-// with PLine and VSet for segments and points. Each object has vertices with numbers of its own, and is a
-// marker where there are several.
+// with PLine and VSet for segments and points. Each object numbers its own vertices, and becomes a marker if
+// there are several.
 #include <map>
 
 #include "io/formats.h"
@@ -95,7 +95,7 @@ class GocadReader {
     return found->second;
   }
 
-  /// Depths and elevations in one file would mirror some of it.
+  /// Mixing depths and elevations would mirror part of the mesh.
   void read_direction() {
     const std::string direction = lower(text_.word_on_line());
     if (direction_.empty()) direction_ = direction;
@@ -104,7 +104,7 @@ class GocadReader {
                  " in an object before: export them alike");
   }
 
-  /// One surface has no marker, but a name.
+  /// A single surface gets a name but no marker.
   void name_facets() {
     if (is_open_) end_object();
     const bool several = names_.size() > 1;

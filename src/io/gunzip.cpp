@@ -1,5 +1,4 @@
-// What zlib unpacks: gzip's files of one member or several, behind one another (RFC 1952), and deflated
-// bytes.
+// Decompresses by zlib: gzip files of one or several consecutive members (RFC 1952), and raw deflated bytes.
 #include "io/gunzip.h"
 
 #include <zlib.h>
@@ -13,7 +12,7 @@ namespace {
 
 class Inflater {
  public:
-  /// `window_bits` as zlib's inflateInit2 takes them, which tell the format, too.
+  /// `window_bits` as for zlib's inflateInit2, where they also select the format.
   Inflater(const Source& source, std::size_t begin, std::size_t end, int window_bits)
       : source_(source), used_(begin), begin_(begin), end_(end) {
     if (inflateInit2(&stream_, window_bits) != Z_OK) throw std::bad_alloc();
@@ -40,7 +39,7 @@ class Inflater {
     unpacked.resize(size);
     return unpacked;
   }
-  /// The first byte that was not used.
+  /// The position after the last byte used.
   [[nodiscard]] std::size_t used() const { return used_; }
 
  private:
@@ -58,8 +57,8 @@ class Inflater {
     return status;
   }
 
-  /// Meshes, as text or bytes, are packed to a tenth or so; what is packed to a 200th and large fills the
-  /// memory with nothing.
+  /// Meshes, as text or bytes, compress to a tenth or so; large data compressed to a 200th is a decompression
+  /// bomb.
   void grow(std::string& unpacked) const {
     constexpr std::size_t kHarmless = std::size_t{64} << 20, kBestRatio = 200;
     if (unpacked.size() >= kHarmless && unpacked.size() / kBestRatio > end_ - begin_)
@@ -85,7 +84,7 @@ class Inflater {
 }  // namespace
 
 Unpacked gunzipped(const Source& source) {
-  constexpr int kGzip = 16;  // read the gzip header and trailer
+  constexpr int kGzip = 16;  // expect the gzip header and trailer
   Inflater inflater(source, 0, source.bytes.size(), MAX_WBITS + kGzip);
   Unpacked unpacked{inflater.run()};
   const std::string_view behind = source.bytes.substr(inflater.used());
@@ -94,7 +93,7 @@ Unpacked gunzipped(const Source& source) {
 }
 
 std::string inflated(const Source& source, std::size_t begin, std::size_t end) {
-  return Inflater(source, begin, end, -MAX_WBITS).run();  // negative: neither header nor trailer
+  return Inflater(source, begin, end, -MAX_WBITS).run();  // negative for no header and trailer
 }
 
 }  // namespace holdfast::io

@@ -20,7 +20,7 @@ std::map<std::string, Hdf5File::Object> Hdf5File::links(Object group) const {
     } else if (message.type == kLinkInfo) {
       const std::uint64_t at = message.at + ((number<std::uint8_t>(message.at + 1) & 1) != 0 ? 10 : 2);
       const auto heap = number<std::uint64_t>(at), tree = number<std::uint64_t>(at + 8);
-      constexpr std::size_t kHash = 4;  // of the name, before the link's place in a record
+      constexpr std::size_t kHash = 4;  // of the name; it precedes the link's place in a record
       const auto add = [&](std::uint64_t link, std::uint64_t size) { link_of_message(link, size, found); };
       if (heap != kNoAddress) each_in_heap(heap, tree, kHash, add);
     }
@@ -54,7 +54,7 @@ void Hdf5File::links_of_table(std::uint64_t tree, std::uint64_t heap,
     count_block(blocks, at);
     if (bytes(at, 4) == "TREE") {
       const std::size_t children = number<std::uint16_t>(at + 6);
-      // Behind the head, keys and children take turns; the last child comes first from the back.
+      // After the header, keys and children alternate; pushed in reverse, the first child is popped first.
       for (std::size_t i = children; i-- > 0;) nodes.push_back(number<std::uint64_t>(at + 32 + 16 * i));
       continue;
     }
@@ -78,7 +78,7 @@ void Hdf5File::link_of_message(std::uint64_t at, std::uint64_t size,
   std::uint64_t place = at + 2;
   std::uint8_t type = 0;
   if ((flags & 8) != 0) type = number<std::uint8_t>(place++);
-  if ((flags & 4) != 0) place += 8;   // order of creation
+  if ((flags & 4) != 0) place += 8;   // creation order
   if ((flags & 16) != 0) place += 1;  // character set
   const std::size_t width = std::size_t{1} << (flags & 3);
   const std::uint64_t length = number(place, width);

@@ -1,5 +1,5 @@
-// Objects in fractal heaps of HDF5 that a B-tree of version 2 lists: links of large groups, and attributes of
-// objects that have many (HDF5 file format specification, III.A.2, III.G).
+// Objects in fractal heaps of HDF5, listed by a B-tree of version 2: links of large groups, and attributes of
+// objects with many (HDF5 file format specification, III.A.2, III.G).
 #include <bit>
 
 #include "io/hdf5_number.h"
@@ -7,7 +7,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Bytes that a number up to `most` takes.
+/// The number of bytes that a number up to `most` takes.
 std::size_t width_of(std::uint64_t most) { return (static_cast<std::size_t>(std::bit_width(most)) + 7) / 8; }
 
 }  // namespace
@@ -29,7 +29,8 @@ void Hdf5File::each_in_heap(std::uint64_t heap, std::uint64_t tree, std::size_t 
       1 + offset_size + length_size > id_size)
     fail(heap, "a heap of HDF5 is damaged");
 
-  // An offset counts through all direct blocks: two rows of the first size, then each of twice the last.
+  // Offsets count through all direct blocks: two rows of blocks of the first size, then rows of twice the
+  // previous size.
   const auto address_of = [&](std::uint64_t offset, std::uint64_t id_at) {
     if (rows == 0) return root + offset;
     std::uint64_t block = root + 13 + offset_size, size = first_block, begin = 0;
@@ -58,7 +59,7 @@ void Hdf5File::each_in_heap(std::uint64_t heap, std::uint64_t tree, std::size_t 
   constexpr std::size_t kHead = 6, kTail = 4, kDeepest = 16;
   if (record_size < id_in_record + id_size || node_size < kHead + kTail + record_size || depth > kDeepest)
     fail(tree, "a tree of HDF5 is damaged");
-  // How wide the numbers of records are that inner nodes of each level have for their children.
+  // The widths of the record counts that inner nodes of each level store for their children.
   const std::uint64_t in_leaf = (node_size - kHead - kTail) / record_size;
   const std::size_t count_width = width_of(in_leaf);
   std::vector<std::size_t> total_width{0};

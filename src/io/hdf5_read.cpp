@@ -48,7 +48,7 @@ void Hdf5File::require_signature(std::uint64_t at, std::string_view signature) c
 }
 
 void Hdf5File::count_block(std::size_t& blocks, std::uint64_t at) const {
-  constexpr std::size_t kLeast = 8;  // bytes of an entry
+  constexpr std::size_t kLeast = 8;  // the least bytes of an entry
   if (++blocks > source_.bytes.size() / kLeast + 1) fail(at, "a tree of HDF5 runs in circles");
 }
 
@@ -95,7 +95,7 @@ void Hdf5File::read_messages_1(Object object, std::vector<Hdf5Message>& found) c
 }
 
 void Hdf5File::read_messages_2(Object object, std::vector<Hdf5Message>& found) const {
-  constexpr std::size_t kMost = 65536;  // messages of an object
+  constexpr std::size_t kMost = 65536;  // messages per object
   const auto flags = number<std::uint8_t>(object + 5);
   std::uint64_t at = object + 6 + ((flags & 0x20) != 0 ? 16 : 0) + ((flags & 0x10) != 0 ? 4 : 0);
   const std::size_t width = std::size_t{1} << (flags & 3);
@@ -114,7 +114,7 @@ void Hdf5File::read_messages_2(Object object, std::vector<Hdf5Message>& found) c
         const auto next = number<std::uint64_t>(message.at), size = number<std::uint64_t>(message.at + 8);
         require_signature(next, "OCHK");
         if (size < 8) fail(next, "a block of HDF5 is too short");
-        blocks.emplace_back(next + 4, size - 8);  // without its checksum
+        blocks.emplace_back(next + 4, size - 8);  // without the checksum
       }
       at = message.at + message.size;
     }
@@ -129,10 +129,10 @@ std::optional<Hdf5File::Values> Hdf5File::attribute(Object object, std::string_v
   for (const Hdf5Message& message : messages(object)) {
     if (message.type == kAttribute) {
       look_at(message.at, message.size);
-    } else if (message.type == kAttributeInfo) {  // of many attributes, which stand in a heap
+    } else if (message.type == kAttributeInfo) {  // many attributes, stored in a heap
       const std::uint64_t at = message.at + ((number<std::uint8_t>(message.at + 1) & 1) != 0 ? 4 : 2);
       const auto heap = number<std::uint64_t>(at), tree = number<std::uint64_t>(at + 8);
-      constexpr std::size_t kNothing = 0;  // before the attribute's place in a record
+      constexpr std::size_t kNothing = 0;  // bytes before the attribute's place in a record
       if (heap != kNoAddress) each_in_heap(heap, tree, kNothing, look_at);
     }
   }

@@ -1,5 +1,5 @@
-// Values in HDF5: datatypes, dataspaces, and arrays in one piece or in chunks that may be packed (HDF5 file
-// format specification, III.A.1, IV.A.2.b, d, i, l).
+// Values in HDF5: datatypes, dataspaces, and arrays that are contiguous or in chunks, which may be compressed
+// (HDF5 file format specification, III.A.1, IV.A.2.b, d, i, l).
 #include <zlib.h>
 
 #include <algorithm>
@@ -16,8 +16,7 @@ constexpr std::uint16_t kDataspace = 0x0001, kDatatype = 0x0003, kLayout = 0x000
 constexpr std::uint16_t kDeflate = 1, kShuffle = 2, kChecksum = 3;
 constexpr std::size_t kMostRank = 32;
 
-/// How far an array may be larger than the file that it is packed in, as with gzip: more is not to be
-/// believed.
+/// How many times larger an array may be than its compressed file, as for gzip; more is a decompression bomb.
 constexpr std::uint64_t kMostPacked = 200, kAlways = std::uint64_t{64} << 20;
 std::uint64_t most_bytes(const Source& source) {
   return std::max(kAlways, kMostPacked * source.bytes.size());
@@ -25,7 +24,7 @@ std::uint64_t most_bytes(const Source& source) {
 
 std::size_t round_up(std::size_t size) { return (size + 7) / 8 * 8; }
 
-/// Bytes 0 of all values, then bytes 1 of all, as they were before.
+/// Undoes HDF5's shuffle filter, which stores byte 0 of all values, then byte 1 of all, and so on.
 std::string unshuffled(const std::string& bytes, std::size_t size) {
   if (size < 2) return bytes;
   const std::size_t count = bytes.size() / size;
@@ -37,7 +36,7 @@ std::string unshuffled(const std::string& bytes, std::size_t size) {
 
 }  // namespace
 
-/// How an array is cut into chunks.
+/// The chunks of an array.
 struct Hdf5File::Chunks {
   std::vector<std::uint64_t> shape;  ///< of a chunk
   std::size_t file_rank = 0;         ///< directions that the file has offsets for, besides one for bytes
@@ -73,7 +72,7 @@ Hdf5Datatype Hdf5File::datatype(std::uint64_t at, std::uint64_t size, std::uint6
       if ((number<std::uint8_t>(at + 8) & 15) != kInteger) fail(at, "an enumeration of HDF5 is damaged");
       return datatype(at + 8, size - 8, inner);
     case kArray: {
-      // A text, as MED has its names, or several values in one.
+      // A text, as MED stores names, or several values per element.
       const std::size_t rank = number<std::uint8_t>(at + 8);
       const std::uint64_t dimensions = at + (version < 3 ? 12 : 9);
       std::uint64_t count = 1;
@@ -213,7 +212,7 @@ void Hdf5File::read_layout(const Hdf5Message& layout, const std::vector<Filter>&
         fail(at, "the chunks of an HDF5 array are damaged");
       chunks.size *= n;
     }
-    // Values of several numbers each stand behind one another.
+    // The components of values with several numbers come last.
     for (std::size_t i = rank - 1; i < values.shape.size(); ++i) {
       chunks.shape.push_back(values.shape[i]);
       chunks.size *= values.shape[i];
@@ -230,7 +229,7 @@ void Hdf5File::read_layout(const Hdf5Message& layout, const std::vector<Filter>&
 
 void Hdf5File::read_chunks(std::uint64_t tree, const Chunks& chunks, Values& values) const {
   const std::size_t rank = chunks.shape.size();
-  // The key of a chunk has its size, its filters, and an offset for each direction and one for the bytes.
+  // The key of a chunk has its size, its filter mask, an offset for each dimension and one for the bytes.
   const std::size_t key_size = 8 + 8 * (chunks.file_rank + 1), step = key_size + 8;
   std::vector<std::uint64_t> nodes{tree};
   std::size_t blocks = 0;
@@ -260,7 +259,7 @@ void Hdf5File::read_chunks(std::uint64_t tree, const Chunks& chunks, Values& val
 
 void Hdf5File::put_chunk(const std::vector<std::uint64_t>& origin, const Chunks& chunks,
                          const std::string& unpacked, Values& values) const {
-  // Row by row: what is beyond the array's end is not there.
+  // Copies row by row; the part of a chunk beyond the array's end is dropped.
   const std::size_t rank = origin.size(), last = rank - 1, each = values.type.size;
   const auto extent = [&](std::size_t i) { return std::min(chunks.shape[i], values.shape[i] - origin[i]); };
   const std::uint64_t row = extent(last) * each;
@@ -318,7 +317,7 @@ void convert(std::string_view bytes, std::endian order, std::vector<Out>& out, s
     out.push_back(static_cast<Out>(load<In>(bytes.data() + i * sizeof(In), order)));
 }
 
-/// Calls with a value of the type that integers of this size and sign have.
+/// Calls with a value of the integer type of this size and sign.
 template <typename Call>
 void with_integer(std::size_t size, bool is_signed, Call&& call) {
   if (size == 1) return is_signed ? call(std::int8_t{}) : call(std::uint8_t{});
@@ -363,7 +362,7 @@ std::vector<std::int64_t> Hdf5File::as_integers(const Values& read, Object at) c
   for (std::uint64_t i = 0; i < read.count; ++i) {
     const char* const place = read.bytes.data() + i * read.type.size;
     const double value = read.type.size == 4 ? double{load<float>(place, order)} : load<double>(place, order);
-    constexpr double kMost = 9007199254740992;  // beyond it doubles are no numbers of things
+    constexpr double kMost = 9007199254740992;  // doubles beyond it do not represent all integers
     if (!(std::abs(value) <= kMost) || value != std::trunc(value))
       fail(at, "value " + std::to_string(i) + " of an array of HDF5 is no integer");
     result.push_back(static_cast<std::int64_t>(value));

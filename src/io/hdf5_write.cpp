@@ -1,7 +1,7 @@
 // Writes HDF5 files by the HDF5 file format specification, version 2.0, with structures that every version of
 // the library from 1.8 on reads: superblock 0, object headers of version 1, contiguous arrays.
 //
-//   superblock | of each group its members, then its object header with links to them | values of the arrays
+//   superblock | for each group its members, then its object header with links to them | values of the arrays
 #include "io/hdf5_write.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace holdfast::io {
 namespace {
 
 constexpr std::uint64_t kUndefined = ~std::uint64_t{0};
-constexpr std::uint16_t kLeafK = 4, kInternalK = 16;  // of B-trees, which there are none of
+constexpr std::uint16_t kLeafK = 4, kInternalK = 16;  // of B-trees, which are not used
 constexpr std::size_t kSuperblock = 96, kMostMessages = 65000;
 
 class Bytes {
@@ -65,7 +65,7 @@ Bytes integer_type(std::uint32_t size) {
   return bytes;
 }
 
-/// A text with a zero at its end.
+/// The type of a text that ends in a zero.
 Bytes text_type(std::uint32_t size) {
   Bytes bytes;  // version 1, class 3
   bytes.put<std::uint8_t>(0x13).zeros(3).put(size);
@@ -81,7 +81,7 @@ Bytes datatype(Hdf5Type type) {
     bytes.put<std::uint8_t>(52).put<std::uint8_t>(11).put<std::uint8_t>(0).put<std::uint8_t>(52);
     bytes.put<std::uint32_t>(1023);
   } else if (type == Hdf5Type::text80) {
-    // Version 2, class 10: an array of 80 integers of a byte each.
+    // Version 2, class 10: an array of 80 one-byte integers.
     bytes.put<std::uint8_t>(0x2A).zeros(3).put<std::uint32_t>(80);
     bytes.put<std::uint8_t>(1).zeros(3).put<std::uint32_t>(80).put<std::uint32_t>(0);
     bytes.text(integer_type(1).all());
@@ -145,7 +145,7 @@ void add_attributes(Messages& messages, const std::vector<Hdf5Attribute>& attrib
   for (const Hdf5Attribute& one : attributes) messages.emplace_back(0x000C, attribute(one));
 }
 
-/// All of a file but the values of its arrays, which follow from `values_begin`.
+/// Everything in a file except the values of its arrays, which begin at `values_begin`.
 class Metadata {
  public:
   Metadata(const Hdf5Group& root, std::uint64_t values_begin) : values_end_(values_begin) {
@@ -161,7 +161,7 @@ class Metadata {
 
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
   [[nodiscard]] std::string all() const { return superblock_ + bytes_.all().substr(kSuperblock); }
-  /// In the order of their values.
+  /// In the order of their values in the file.
   [[nodiscard]] const std::vector<const Hdf5Array*>& arrays() const { return arrays_; }
 
  private:
@@ -183,13 +183,13 @@ class Metadata {
     return add(header(messages));
   }
 
-  /// A group with its links in its header, in the order in which they are made, by which MED finds them.
+  /// Adds a group with links in its header in creation order, on which MED relies.
   std::uint64_t add_group(const Hdf5Group& group) {
     if (group.arrays.size() + group.groups.size() + group.attributes.size() > kMostMessages)
       throw std::invalid_argument("more sets than a group of HDF5 holds here");
     Messages links;
     const auto link = [&](const std::string& name, std::uint64_t object) {
-      Bytes bytes;  // version 1; with its number, and the length of the name in a byte
+      Bytes bytes;  // version 1; with its creation order, and the length of the name in one byte
       bytes.put<std::uint8_t>(1).put<std::uint8_t>(4).put(static_cast<std::uint64_t>(links.size()));
       bytes.put(static_cast<std::uint8_t>(name.size())).text(name).put(object);
       links.emplace_back(0x0006, padded(std::move(bytes)));
@@ -197,7 +197,7 @@ class Metadata {
     for (const Hdf5Array& array : group.arrays) link(array.name, add_array(array));
     for (const Hdf5Group& inner : group.groups) link(inner.name, add_group(inner));
     Bytes info, phases;
-    info.zeros(1).put<std::uint8_t>(1).put(static_cast<std::uint64_t>(links.size()));  // numbers are kept
+    info.zeros(1).put<std::uint8_t>(1).put(static_cast<std::uint64_t>(links.size()));  // order is tracked
     info.put(kUndefined).put(kUndefined);                                              // no links elsewhere
     constexpr std::uint16_t kMostInHeader = 65535, kLeastElsewhere = 65534;
     phases.zeros(1).put<std::uint8_t>(1).put(kMostInHeader).put(kLeastElsewhere);
@@ -232,7 +232,7 @@ void put_values(AtomicWriter& out, const Hdf5Array& array) {
 }  // namespace
 
 void write_hdf5(AtomicWriter& out, const Hdf5Group& root) {
-  // The size does not depend on where the values begin.
+  // The size does not depend on `values_begin`.
   const Metadata metadata(root, Metadata(root, 0).size());
   out << metadata.all();
   for (const Hdf5Array* const array : metadata.arrays()) put_values(out, *array);

@@ -24,7 +24,7 @@ namespace {
       "the " + std::string(what) + " " + std::to_string(number_in_file(number)) + " is there twice");
 }
 
-// Elements that connect or load nodes, and fill nothing: springs, dashpots, gaps, masses, inertias, heat
+// Elements that connect or load nodes but have no shape: springs, dashpots, gaps, masses, inertias, heat
 // capacities, connectors and couplings, and the branches of CalculiX's networks.
 bool has_no_shape(std::string_view type) {
   static constexpr std::string_view kPrefixes[] = {"spring",  "dashpot", "gap",     "mass",   "rotaryi",
@@ -39,7 +39,7 @@ std::vector<std::int64_t> InpElements::read_nodes(InpText& text) {
   std::vector<std::int64_t> read;
   for (; text.is_data(); text.next()) {
     const std::vector<std::string_view> fields = text.fields();
-    // Coordinates that are not there are zero (Abaqus and CalculiX, *NODE).
+    // Missing coordinates are zero (Abaqus and CalculiX, *NODE).
     read.push_back(text.number(fields[0], "a node's number"));
     Point point{};
     for (std::size_t axis = 0; axis < 3 && axis + 1 < fields.size(); ++axis)
@@ -60,7 +60,7 @@ Point InpElements::place_of_node(const InpText& text, std::int64_t number) {
 }
 
 const InpElements::Type& InpElements::type_of(const TextReader& text, const InpKeyword& key) {
-  // The longest prefix of a type's name counts.
+  // The longest matching prefix of a type's name counts.
   static constexpr Type kTypes[] = {
       {"c3d5", 3, 5},    {"c3d6", 3, 6},    {"c3d8", 3, 8},   {"c3d13", 3, 13}, {"c3d15", 3, 15},
       {"c3d20", 3, 20},  {"c3d27", 3, 27},  {"dc3d5", 3, 5},  {"dc3d6", 3, 6},  {"dc3d8", 3, 8},
@@ -98,7 +98,7 @@ std::vector<std::int64_t> InpElements::read(InpText& text, const InpKeyword& key
   if (const auto twice = nodes_.finish()) fail_twice(text.reader().source(), "node", *twice);
   std::vector<std::int64_t> read;
   while (text.is_data()) {
-    // An element may take several lines.
+    // An element may span several lines.
     const std::size_t place = text.place();
     std::vector<std::int64_t> numbers;
     for (; text.is_data() && numbers.size() < type.nodes + 1; text.next())
@@ -140,7 +140,7 @@ std::vector<std::int64_t> InpElements::read_copies(InpText& text) {
                          ", of which *ELGEN makes others, "
                          "does not exist");
     const Original element = original->second;
-    // Three times a number of elements with the steps of nodes and of elements.
+    // Three times: a number of elements, with the increments of nodes and of elements.
     const std::array<std::int64_t, 3> counts{value(1), value(4), value(7)};
     for (const std::int64_t count : counts)
       if (count < 1) text.reader().fail("a number of elements below 1");
@@ -160,7 +160,7 @@ std::vector<std::int64_t> InpElements::read_copies(InpText& text) {
   return all;
 }
 
-// A line each. Their numbers count, as sets may hold them.
+// One element per line. Their numbers are kept, because sets may contain them.
 std::vector<std::int64_t> InpElements::read_shapeless(InpText& text, const std::string& type) {
   std::vector<std::int64_t> read;
   for (; text.is_data(); text.next()) {

@@ -46,7 +46,7 @@ Point rounded(const Point& p) { return {rounded(p[0]), rounded(p[1]), rounded(p[
 std::string inp_real(double value) {
   const std::string shortest = without_leading_zero(text_of(value));
   if (shortest.size() <= kMost) return shortest;
-  // From here on, zeros behind the point take no more room than an exponent does.
+  // Down to this, zeros after the point take no more room than an exponent.
   constexpr double kLeastPlain = 1e-4;
   const bool is_plain = std::fabs(value) >= kLeastPlain && std::fabs(value) < 1;
   for (int figures = static_cast<int>(kMost);; --figures) {

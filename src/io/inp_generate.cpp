@@ -73,7 +73,7 @@ void InpGenerated::read_nfill(InpText& text, const InpKeyword& key) {
   add_listed(text, key, made);
 }
 
-// The nodes between two, whose numbers follow that of the first.
+// Adds the nodes between two, numbered from the first one on.
 void InpGenerated::fill(const InpText& text, std::int64_t first, std::int64_t last, std::int64_t intervals,
                         std::int64_t step, Numbers& set) {
   made_.count(text, intervals);
@@ -87,7 +87,7 @@ void InpGenerated::fill(const InpText& text, std::int64_t first, std::int64_t la
   }
 }
 
-// Sets are ascending, but for those that are marked.
+// Sets are sorted unless marked UNSORTED.
 void InpGenerated::read_set(InpText& text, const InpKeyword& key) {
   Numbers numbers;
   for (; text.is_data(); text.next()) {

@@ -11,7 +11,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Where a file is included, in place of the text from `begin` to `end`.
+/// An included file, which replaces the text from `begin` to `end`.
 struct Include {
   std::size_t begin, end;
   std::string name;  ///< empty: it names none
@@ -25,7 +25,7 @@ std::string_view without_ends(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-/// The value of INPUT among the parameters of a keyword.
+/// The value of the parameter INPUT of a keyword.
 std::string name_in(std::string_view keyword) {
   for (const std::string_view field : split(keyword, ',')) {
     const std::size_t equals = field.find('=');
@@ -37,7 +37,7 @@ std::string name_in(std::string_view keyword) {
   return {};
 }
 
-/// The end of a keyword from a place on: it goes on behind a line that ends with a comma.
+/// The end of a keyword that begins at `begin`: it continues after a line that ends with a comma.
 std::size_t end_of_keyword(std::string_view bytes, std::size_t begin) {
   for (;;) {
     const std::size_t end = std::min(bytes.find_first_of(kLineEnds, begin), bytes.size());
@@ -48,7 +48,7 @@ std::size_t end_of_keyword(std::string_view bytes, std::size_t begin) {
   }
 }
 
-/// The next one from a place on. Only stars are looked at, of which a mesh has few.
+/// The next inclusion from a position on. Only asterisks are examined, of which a mesh has few.
 std::optional<Include> next_include(std::string_view bytes, std::size_t from) {
   for (std::size_t star = bytes.find('*', from); star != std::string_view::npos;
        star = bytes.find('*', star + 1)) {
@@ -60,7 +60,7 @@ std::optional<Include> next_include(std::string_view bytes, std::size_t from) {
     const std::string keyword = lower(trimmed(line.substr(0, line.find(','))));
     if (keyword == "include") return Include{begin, end, name_in(line)};
     if (keyword != "node" && keyword != "element") continue;
-    // The file has the lines of data, and the keyword stays.
+    // The file contains the data lines; the keyword itself stays.
     const std::size_t behind = end_of_keyword(bytes, star);
     const std::string name = name_in(bytes.substr(star, behind - star));
     if (!name.empty()) return Include{behind, behind, name};
@@ -117,14 +117,14 @@ void InpIncludes::add_text(const std::filesystem::path& path, std::string_view b
 std::vector<std::filesystem::path> inp_files(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files{path};
   std::error_code error;
-  // A pipe is read only once.
+  // A pipe can only be read once.
   if (!std::filesystem::is_regular_file(path, error)) return files;
   try {
     const FileBytes bytes(path);
     const InpIncludes whole({path, bytes.view()});
     files.insert(files.end(), whole.files().begin(), whole.files().end());
   } catch (const FileError&) {
-    // The reader says so.
+    // The reader reports it.
   }
   return files;
 }

@@ -7,7 +7,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Up to `most` numbers of a line of data; fewer where it ends or has blanks.
+/// Up to `most` numbers of a data line; fewer if it ends early or has empty fields.
 std::vector<double> reals_of(const InpText& text, std::size_t most) {
   std::vector<double> values;
   for (const std::string_view field : text.fields())
@@ -16,7 +16,7 @@ std::vector<double> reals_of(const InpText& text, std::size_t most) {
   return values;
 }
 
-/// A line that moves the instance, then one that turns it about an axis through two points.
+/// Reads a line that translates the instance, then one that rotates it about an axis through two points.
 Placement read_placement(InpText& text) {
   Placement placement;
   if (!text.is_data()) return placement;

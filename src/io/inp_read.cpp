@@ -1,8 +1,8 @@
 // Reads Abaqus's and CalculiX's .inp: nodes, tetrahedra, triangles and lines, element sets and surfaces of
 // elements and sides (CalculiX CrunchiX user's manual, "Input deck format").
 //
-// Sets of tetrahedra are regions, those of triangles and surfaces markers. Where sets overlap, the smaller
-// one counts. An instance of a part reads the part's lines once more, with numbers and names of its own.
+// Sets of tetrahedra are regions; sets of triangles, and surfaces, are markers. Where sets overlap, the
+// smaller one counts. An instance of a part reads the part's lines again, with its own numbers and names.
 #include "io/formats.h"
 #include "io/inp_generate.h"
 #include "io/inp_include.h"
@@ -70,7 +70,7 @@ class InpReader {
     }
   }
 
-  /// Coordinates that are not those of the file would make another shape.
+  /// Local coordinates would change the shape, so they are refused.
   void require_global(const InpKeyword& key) {
     const auto fail = [&](const std::string& what) {
       text_.reader().fail_at(key.place,
@@ -84,7 +84,7 @@ class InpReader {
     if (kind == "s") fail("spherical coordinates (SYSTEM=S)");
   }
 
-  /// The lines of its part, then its own.
+  /// Reads the lines of the instance's part, then its own.
   void read_instance(const InpKeyword& key) {
     const std::optional<InpParts::Lines> part = parts_.begin_instance(text_, key);
     require_a_mesh();
@@ -96,13 +96,13 @@ class InpReader {
     text_.set_scope({});
   }
 
-  /// The last keyword of the part may go on in the line that ends it.
+  /// The last keyword of the part may continue in the line that ends it.
   void read_part(const InpParts::Lines& lines) {
     text_.go_to(lines.begin);
     while (!text_.at_end() && text_.place() < lines.end) read_block(text_.keyword());
   }
 
-  /// Without an assembly each part is there once; with one, those that it does not have are left out.
+  /// Without an assembly, each part occurs once; with one, unused parts are skipped.
   void read_unused_parts() {
     const std::vector<std::string> unused = parts_.unused();
     if (parts_.instances() > 0) {
@@ -115,7 +115,7 @@ class InpReader {
     }
   }
 
-  /// A short file may have many instances of a large part.
+  /// A short file may create many instances of a large part.
   void require_a_mesh() const {
     constexpr std::size_t kHarmless = std::size_t{1} << 22, kMostTimes = 1000;
     const std::size_t size = mesh_.vertices.size() + elements_.size();
@@ -124,7 +124,8 @@ class InpReader {
                           " nodes and elements; that is no mesh but a trap");
   }
 
-  /// The ids of the sets' entities; `markers` are those of facets by surfaces, which come before.
+  /// Gives the entities of sets their ids; `markers` are those of facets from surfaces, which take
+  /// precedence.
   void apply_sets(const std::vector<int>& markers) {
     std::vector<int> regions(mesh_.tetrahedra.size(), 0), segments(mesh_.segments.size(), 0);
     std::vector<int> shells(mesh_.facets.size(), 0);

@@ -13,12 +13,12 @@ namespace {
 /// Sides S1 to S4 of a tetrahedron, by the corner opposite them.
 constexpr std::array<std::size_t, 4> kOpposite{3, 2, 0, 1};
 
-/// Sets may name an element several times; more often than so many for each, and a few, is no sane file.
+/// Sets may name an element several times; more often than this on average, the file is malicious.
 constexpr std::size_t kMostPerElement = 16;
 
 bool is_number(std::string_view field) { return !field.empty() && field[0] >= '0' && field[0] <= '9'; }
 
-/// A side of a tetrahedron, with the nodes on its edges where the tetrahedron has some.
+/// Adds a side of a tetrahedron, with the nodes on its edges if the tetrahedron has some.
 void add_facet(MeshData& mesh, Index tetrahedron, const std::array<std::size_t, 3>& outward,
                const Triangle& facet) {
   if (tetrahedron >= mesh.mids.tetrahedra.size() || mesh.mids.tetrahedra[tetrahedron][0] == no_entity)
@@ -69,7 +69,7 @@ void InpSets::add_range(const InpText& lines, const std::vector<std::string_view
   const std::int64_t step =
       fields.size() > 2 && !fields[2].empty() ? integer_of(text, fields[2], "a step") : 1;
   if (step < 1 || first < 0 || last < first) text.fail("a range that does not go up");
-  // No more numbers than there are elements, which come first.
+  // Elements come first, and a range cannot have more numbers than there are elements.
   if ((last - first) / step >= static_cast<std::int64_t>(elements))
     text.fail("a range of more elements than there are");
   for (std::int64_t number = first; number <= last; number += step) members.push_back(number);
@@ -125,16 +125,16 @@ void InpSurfaces::read(InpText& text, const std::string& name) {
   }
 }
 
-/// The facets of a mesh with their markers, each found by its corners.
+/// The facets of a mesh with their markers, found by their corners.
 class InpSurfaces::Facets {
  public:
   Facets(MeshData& mesh, const InpElements& elements)
       : mesh_(mesh), elements_(elements), markers_(mesh.facets.size(), 0) {
-    settle_quadrangles(mesh);  // so that they are found by the triangles of a cell's side
+    settle_quadrangles(mesh);  // so that the triangles of a cell's side match
     for (Index f = 0; f < mesh.facets.size(); ++f) facet_of_.emplace(ascending(mesh.facets[f]), f);
   }
 
-  /// Marks a side of an element, which becomes a facet if it is none.
+  /// Marks a side of an element, which becomes a facet if it is not one yet.
   void mark(const TextReader& text, const InpElement& element, const Side& side, int id) {
     if (element.dimension == 2) {
       for (Index k = 0; k < element.count; ++k) markers_[element.entity + k] = id;
@@ -158,12 +158,12 @@ class InpSurfaces::Facets {
     markers_[facet_of_.at(ascending(facet))] = id;
   }
 
-  /// Sides of elements that have none.
+  /// The number of marked sides of elements without area.
   [[nodiscard]] std::size_t without_area() const { return without_area_; }
   [[nodiscard]] std::vector<int> take_markers() { return std::move(markers_); }
 
  private:
-  /// The index behind the S of a side, from 0, of an element by the number of its corners.
+  /// The number after the S of a side, counted from 0, for an element with `corners` corners.
   static std::size_t number_of(const TextReader& text, const Side& side, std::size_t corners) {
     const char last = corners == 4 ? '4' : corners == 8 ? '6' : '5';
     const std::string name = lower(side.side);
@@ -177,7 +177,7 @@ class InpSurfaces::Facets {
     return static_cast<std::size_t>(name[1] - '1');
   }
 
-  /// Whether the facet is a new one, which is to be added to the mesh.
+  /// Whether the facet is new and must be added to the mesh.
   bool add_once(const Triangle& facet) {
     const bool fresh = facet_of_.emplace(ascending(facet), static_cast<Index>(mesh_.facets.size())).second;
     if (fresh) markers_.push_back(0);

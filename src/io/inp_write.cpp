@@ -1,7 +1,7 @@
 // Writes Abaqus's and CalculiX's .inp (CalculiX CrunchiX user's manual, "Input deck format").
 //
-// Regions are element sets; markers are surfaces of elements and sides, and sets of their nodes. Facets are
-// no elements of their own unless shells are asked for, since a solver would compute with these.
+// Regions are element sets; markers are surfaces of element sides, and sets of their nodes. Facets are
+// elements of their own only if shells are requested, because a solver would compute with them.
 #include <algorithm>
 
 #include "io/formats.h"
@@ -12,11 +12,11 @@
 namespace holdfast::io {
 namespace {
 
-/// CalculiX reads 80 characters, and all letters as capitals.
+/// CalculiX reads 80 characters and ignores case.
 constexpr NameRule kNames{80, "_-", false, false, true, false};
 constexpr IdRule kAnyId{false};
 
-/// Numbers of the sides S1 to S4 of C3D4, by the corner opposite them.
+/// The numbers of the sides S1 to S4 of C3D4, by the opposite corner.
 constexpr std::array<int, 4> kSides{3, 4, 2, 1};
 
 struct InpData {
@@ -34,7 +34,7 @@ struct InpData {
                            kNames, kAnyId)) {}
 };
 
-/// Numbers in lines of eight.
+/// Writes numbers in lines of eight.
 class List {
  public:
   explicit List(AtomicWriter& out) : out_(out) {}
@@ -111,7 +111,7 @@ void write_inp(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
                  [&](std::size_t i) { return tetrahedron_nodes(volume, i, kVtkEdges); });
   const bool no_tetrahedra = volume.tetrahedra.empty();
   if (options.shells || no_tetrahedra) {
-    // Of sets of elements, each name may be there once.
+    // Names of element sets must be unique.
     Labels shells = data.facets;
     if (!no_tetrahedra)
       for (auto& [id, name] : shells.names) name = "SH_" + name.substr(0, 77);

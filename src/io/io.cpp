@@ -1,4 +1,4 @@
-// The public functions of holdfast/io.h: formats by extension, and what a file must hold.
+// The public functions of holdfast/io.h: formats by extension, and the requirements on a file.
 #include "holdfast/io.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 using Reader = MeshData (*)(const Source&);
 using Writer = void (*)(const std::filesystem::path&, const Volume&, const WriteOptions&, Watch&);
 
-/// A writer of one file, which gets its name when it is complete.
+/// Writes one file, which gets its name when it is complete.
 template <auto write>
 void write_file(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                 Watch& watch) {
@@ -42,7 +42,7 @@ void write_tetgen_files(const std::filesystem::path& path, const Volume& volume,
 
 using Remarks = std::vector<Remark> (*)(const Volume&, const WriteOptions&);
 
-constexpr double kRead = 0.3;  // of the work, once the bytes of a file are in memory
+constexpr double kRead = 0.3;  // share of the work once the bytes of a file are in memory
 
 struct Format {
   std::string_view extension;
@@ -92,7 +92,7 @@ constexpr Format kFormats[] = {
     {".face", nullptr, read_tetgen_volume, write_tetgen_files, nullptr, false},
 };
 
-/// The bytes of a file; none of a format that is a folder.
+/// The bytes of a file; none for a format that is a folder.
 std::optional<FileBytes> bytes_of(const std::filesystem::path& path, const Format& format, Watch& watch) {
   std::optional<FileBytes> bytes;
   if (format.extension != ".openfoam") bytes.emplace(path, &watch);
@@ -108,7 +108,7 @@ void tell_behind(const std::optional<FileBytes>& bytes, MeshData& mesh) {
     mesh.leave_out(bytes->behind(), "bytes behind the compressed data", "byte behind the compressed data");
 }
 
-/// The format's name as the table spells it: in lower case, with a dot.
+/// The format's name as in the table: lower case, with a dot.
 std::string extension_of(const std::filesystem::path& path, std::string_view format) {
   std::string extension = lower(format.empty() ? path.extension().string() : std::string(format));
   if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
@@ -116,7 +116,7 @@ std::string extension_of(const std::filesystem::path& path, std::string_view for
   return extension;
 }
 
-/// What makes a file that can be read out of one that cannot; or "".
+/// How to convert a file of an unsupported format into a readable one; empty if unknown.
 std::string_view way_out_of(std::string_view extension) {
   struct Way {
     std::string_view extension, text;
@@ -133,7 +133,7 @@ std::string_view way_out_of(std::string_view extension) {
   return {};
 }
 
-/// The entry of an extension that `suits`; else throws, with the ones that would do.
+/// The entry of an extension for which `suits` is true; otherwise throws and lists those that would do.
 template <typename Suits>
 const Format& find_format(const std::filesystem::path& path, std::string_view extension, std::string_view use,
                           Suits&& suits) {
@@ -166,7 +166,7 @@ const Format& writer_of(const std::filesystem::path& path, std::string_view form
                      [](const Format& f) { return f.write != nullptr; });
 }
 
-/// A volume whose tags do not match its entities is the caller's mistake.
+/// A volume whose tags do not match its entities is an error of the caller.
 void require_consistent(const Volume& volume) {
   const auto matches = [](const auto& tags, std::size_t count) {
     return tags.empty() || tags.size() == count;
@@ -246,7 +246,7 @@ Surface read_surface(const std::filesystem::path& path, const ReadOptions& optio
   surface.holes = std::move(mesh.holes);
   surface.remarks = std::move(mesh.remarks);
   surface.names = std::move(mesh.names);
-  if (!mesh.tetrahedra.empty()) surface.names.regions.clear();  // those of tetrahedra that are left out
+  if (!mesh.tetrahedra.empty()) surface.names.regions.clear();  // of tetrahedra, which are dropped
   watch.finish();
   return surface;
 }

@@ -1,4 +1,4 @@
-// Several surfaces as one: indices count on, and markers keep apart what has different names.
+// Joins several surfaces: indices are shifted, and markers with different names stay distinct.
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -17,21 +17,22 @@ std::string name_of(const NamesOfIds& names, int id) {
   return found == names.end() ? std::string() : found->second;
 }
 
-/// Gives the markers of one kind of entity numbers that mean the same in every part.
+/// Gives the markers of one kind of entity numbers that mean the same in all parts.
 class MarkersInTurn {
  public:
-  /// Ids of any part are never given to something else.
+  /// Ids used by any part are never given to something else.
   void reserve(const std::vector<int>& markers) { used_.insert(markers.begin(), markers.end()); }
 
   [[nodiscard]] int next_free() {
     int id = used_.empty() ? 0 : std::max(0, *used_.rbegin());
-    if (id == std::numeric_limits<int>::max())  // the first gap, then
+    if (id == std::numeric_limits<int>::max())  // use the first gap instead
       for (id = 0; used_.contains(id + 1);) ++id;
     used_.insert(id + 1);
     return id + 1;
   }
 
-  /// The number of `id` of a part that names it so: its own, unless an earlier part has another name there.
+  /// The number of a part's marker `id` with this name: `id` itself, unless an earlier part has another name
+  /// for it.
   int number(int id, const std::string& name, std::vector<Remark>& remarks) {
     if (id == 0 && name.empty()) return 0;
     const auto [there, fresh] = meaning_.try_emplace(id, name);
@@ -57,7 +58,7 @@ class MarkersInTurn {
   NamesOfIds meaning_;
 };
 
-/// Appends the markers of the `count` entities of a part in the numbers of the whole.
+/// Appends the markers of a part's `count` entities, renumbered for the whole.
 void append(std::vector<int>& whole, const std::vector<int>& part, std::size_t count, const NamesOfIds& names,
             MarkersInTurn& numbers, std::vector<Remark>& remarks) {
   std::map<int, int> number_of;

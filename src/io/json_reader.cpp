@@ -1,4 +1,4 @@
-// A JSON text as a tree.
+// Parses a JSON text into a tree.
 #include "io/json_reader.h"
 
 #include <algorithm>
@@ -11,10 +11,11 @@ namespace holdfast::io {
 namespace {
 
 constexpr std::size_t kDeepest = 128;
-/// A value takes thirty times the memory of its text; files of meshes have far fewer.
+/// A value takes thirty times the memory of its text; mesh files have far fewer.
 constexpr std::size_t kMostValues = std::size_t{1} << 23;
 
-/// Bytes on their way to the parser, which asks for nothing else while it reads a long string.
+/// A byte for the parser that also watches for cancellation, because the parser checks nothing else in a long
+/// string.
 struct WatchedByte {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -36,8 +37,8 @@ struct WatchedByte {
   bool operator!=(const WatchedByte& other) const { return at != other.at; }
 };
 
-/// Makes the tree, within limits. nlohmann's own parser has none, and with a callback takes a time that grows
-/// with the square of the number of objects in an array.
+/// Builds the tree within limits. nlohmann's own parser has none, and with a callback takes time quadratic in
+/// the number of objects in an array.
 class TreeMaker final : public nlohmann::json_sax<Json> {
  public:
   TreeMaker(const Source& source, std::size_t begin, std::size_t end)
@@ -47,7 +48,7 @@ class TreeMaker final : public nlohmann::json_sax<Json> {
     const char* const end = text_.data() + text_.size();
     Json::sax_parse(WatchedByte{text_.data(), source_.watch, &reached_},
                     WatchedByte{end, source_.watch, &reached_}, this);
-    // A zero byte ends the text for the parser.
+    // The parser stops at a zero byte.
     if (std::any_of(reached_, end, [](char c) { return c != '\0'; })) fail("expected the end of the text");
     return std::move(root_);
   }
@@ -57,7 +58,7 @@ class TreeMaker final : public nlohmann::json_sax<Json> {
   bool number_integer(std::int64_t value) override { return value == 0 ? put(-0.0) : put(value); }
   bool number_unsigned(std::uint64_t value) override { return put(value); }
   bool number_float(double value, const std::string& spelled) override {
-    // By the locale of the program round us the parser may have read a part of it only.
+    // In the locale of the calling program, the parser may have read only a part of the number.
     std::string text = spelled;
     const auto is_point = [](char c) {
       return std::string_view("0123456789+-eE").find(c) == std::string::npos;
@@ -79,7 +80,7 @@ class TreeMaker final : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t bytes, const std::string&, const nlohmann::detail::exception& error) override {
     constexpr int kOverflow = 406;
     if (error.id == kOverflow) fail_at(bytes, "a number that is beyond those of double precision");
-    // Before the reason are the exception's name and the place, behind it all of a token.
+    // The exception's name and the position precede the reason; a token follows it.
     std::string_view reason = error.what();
     if (const auto place = reason.find(": "); place != std::string_view::npos)
       reason.remove_prefix(place + 2);
@@ -113,7 +114,7 @@ class TreeMaker final : public nlohmann::json_sax<Json> {
   [[noreturn]] void fail(const std::string& reason) const {
     fail_at(static_cast<std::size_t>(reached_ - text_.data()), reason);
   }
-  /// At the last of so many bytes of the text.
+  /// Fails at the last of the first `bytes` bytes of the text.
   [[noreturn]] void fail_at(std::size_t bytes, const std::string& reason) const {
     const std::size_t position = begin_ + std::max<std::size_t>(bytes, 1) - 1;
     const std::string_view before = source_.bytes.substr(0, position);
@@ -134,7 +135,7 @@ class TreeMaker final : public nlohmann::json_sax<Json> {
   std::size_t values_ = 0;
 };
 
-/// Whether `value` is in `tree`; then the way to it is behind `way`.
+/// Whether `value` is in `tree`; if so, appends the path to it to `way`.
 bool find_way(const Json& tree, const Json& value, std::vector<std::string>& way) {
   if (&tree == &value) return true;
   for (const auto& [key, item] : tree.items()) {

@@ -1,4 +1,4 @@
-// Ids and names as a format takes them.
+// Ids and names within the rules of a format.
 #include "io/labels.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool allowed(char c, const NameRule& rule) {
   return rule.also.find(c) != std::string_view::npos;
 }
 
-/// At most so many bytes, without a character that is cut in two.
+/// At most `longest` bytes, without a truncated character.
 std::string shortened(std::string name, std::size_t longest) {
   if (name.size() <= longest) return name;
   while (longest > 0 && (static_cast<unsigned char>(name[longest]) & 0xC0) == 0x80) --longest;
@@ -28,7 +28,7 @@ std::string shortened(std::string name, std::size_t longest) {
   return name;
 }
 
-/// What of a name the format allows; a character of several bytes becomes one underscore.
+/// The name with only allowed characters; a character of several bytes becomes one underscore.
 std::string fitted(std::string_view name, const NameRule& rule) {
   std::string result;
   for (const char c : name) {
@@ -90,7 +90,7 @@ void give_names(Labels& labels, const std::map<int, std::string>& names, const N
   std::map<int, int> original;
   for (const auto& [id, number] : labels.renumbered) original[number] = id;
   std::set<std::string> taken;
-  // Names that the user gave come first, then those of ids without one.
+  // Names given by the user come before default names.
   for (const bool own : {true, false})
     for (const int id : in_use) {
       const auto found = given.find(id);
@@ -123,7 +123,7 @@ std::string cleaned_name(std::string_view name) {
     bool valid = length > 0 && i + length <= name.size();
     for (std::size_t k = 1; valid && k < length; ++k)
       valid = (static_cast<unsigned char>(name[i + k]) & 0xC0) == 0x80;
-    if (valid && length >= 3) {  // overlong forms, surrogates, and what is beyond Unicode
+    if (valid && length >= 3) {  // overlong forms, surrogates, and code points beyond Unicode
       const auto second = static_cast<unsigned char>(name[i + 1]);
       valid = !(first == 0xE0 && second < 0xA0) && !(first == 0xED && second > 0x9F) &&
               !(first == 0xF0 && second < 0x90) && !(first == 0xF4 && second > 0x8F);

@@ -3,13 +3,13 @@
 namespace holdfast::io {
 namespace {
 
-/// A block is a row of sequences: a token, of two lengths of four bits; literals; how far back a match
-/// begins, in two bytes. The last sequence ends behind its literals.
+/// A block is a series of sequences: a token with two lengths of four bits, literals, and the distance back
+/// to a match in two bytes. The last sequence ends after its literals.
 class Lz4Block {
  public:
   explicit Lz4Block(std::string_view block) : block_(block) {}
 
-  /// Whether the block is whole, and no match begins before `bytes`.
+  /// Appends the block's data. Returns whether the block is complete and no match begins before `bytes`.
   bool append_to(std::string& bytes, std::size_t size) {
     const std::size_t begin = bytes.size(), end = begin + size;
     while (at_ < block_.size()) {
@@ -25,7 +25,7 @@ class Lz4Block {
       if (!extend(match) || back == 0 || back > bytes.size() - begin) return false;
       match += kShortestMatch;
       if (match > end - bytes.size()) return false;
-      // Byte by byte: a match may reach into itself.
+      // Byte by byte, because a match may overlap itself.
       for (std::size_t from = bytes.size() - back; match > 0; --match) bytes.push_back(bytes[from++]);
     }
     return bytes.size() == end;
@@ -36,7 +36,7 @@ class Lz4Block {
 
   std::size_t byte() { return static_cast<unsigned char>(block_[at_++]); }
 
-  /// A length of 15 goes on in the bytes that follow, up to one that is not 255.
+  /// A length of 15 is extended by the following bytes, up to one that is not 255.
   bool extend(std::size_t& length) {
     if (length < kLongest) return true;
     std::size_t more = kMore;

@@ -1,4 +1,4 @@
-// Writes where defects are as points and lines, for a viewer.
+// Writes the places of defects as points and lines for a viewer.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ bool finite(const Point& point) {
   return std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// Points and cells of the marks so far.
+/// The points and cells of the marks.
 struct Marks {
   std::vector<Point> points;
   io::VtuCells cells;
@@ -33,8 +33,8 @@ struct Marks {
   }
 };
 
-/// Marks the entities of a defect that names no place: its vertices as points, its segments and the
-/// sides of its facets as lines. Indices out of range may be the very defect; they are passed over.
+/// Marks the entities of a defect without places: its vertices as points, its segments and the sides of its
+/// facets as lines. Indices out of range, which may be the defect itself, are skipped.
 void add_entities(Marks& marks, const Complex& complex, const Defect& defect, std::size_t number) {
   const auto add = [&](std::span<const Index> corners) {
     std::vector<Point> places;

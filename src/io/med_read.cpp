@@ -23,7 +23,7 @@ struct Family {
   std::vector<std::string> groups;
 };
 
-/// What becomes of the elements of a type.
+/// How the elements of a type are read.
 struct ElementType {
   std::string_view name;
   std::size_t nodes;
@@ -86,7 +86,7 @@ class MedReader {
       }
       for (const auto& [inner, family] : file_.links(object)) read_family(inner, family);
     }
-    // The ids that names of families tell come first, so that no other takes their number.
+    // Ids contained in names of families come first, so that nothing else takes their number.
     for (const auto& [number, family] : families_)
       for (NamedIds* const ids : {&regions_, &facets_, &segments_, &vertices_})
         if (const auto id = id_of_default_name(ids->stem(), family.name); id && !family.groups.empty())
@@ -116,7 +116,7 @@ class MedReader {
     return families;
   }
 
-  /// The id of each family that is in use, by the least of its groups.
+  /// The id of each used family, from its smallest group.
   [[nodiscard]] std::map<std::int64_t, int> ids_of(const std::vector<std::int64_t>& families, NamedIds& ids) {
     std::map<std::int64_t, std::size_t> members;
     for (const std::int64_t family : families) ++members[family];
@@ -171,7 +171,7 @@ class MedReader {
              " are not read; split them into triangles or tetrahedra");
       mesh_.leave_out(1, "point elements", "list of point elements");
     }
-    for (const ElementType& type : kTypes)  // in this order, whatever that of the names
+    for (const ElementType& type : kTypes)  // in this order, not that of the names
       if (const auto found = all.find(std::string(type.name)); found != all.end())
         read_type(type, found->second);
     mesh_.leave_out(overlaps_, "groups of families that are in smaller groups",

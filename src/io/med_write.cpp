@@ -1,5 +1,5 @@
 // Writes MED 4.1 (Salome, code_aster): one mesh in HDF5, with a family for each region, marker, segment
-// marker and vertex marker, whose name keeps the id and whose group is the name.
+// marker and vertex marker. A family's name contains the id, and its group has the name.
 #include <list>
 #include <map>
 
@@ -27,7 +27,7 @@ struct MedLabels {
   }
 };
 
-/// The families of one kind of element: those of nodes have positive numbers, of elements negative ones.
+/// The families of one kind of entity: numbers are positive for nodes and negative for elements.
 struct Families {
   std::map<int, std::int32_t> number_of;  ///< by id
 };
@@ -62,7 +62,7 @@ class MedWriter {
       }
     next = 0;
     for (const auto& [id, name] : labels_.vertices.names) {
-      if (id == 0 && !volume_.names.vertices.contains(0)) continue;  // none, as most vertices have
+      if (id == 0 && !volume_.names.vertices.contains(0)) continue;  // no family, as for most vertices
       vertices_.number_of[id] = ++next;
       of_nodes.groups.push_back(family(labels_.vertices.stem, id, next, name));
     }
@@ -79,7 +79,7 @@ class MedWriter {
   }
 
  private:
-  /// Named by the id as ids without a name are, so that it is found again; in a group of the name.
+  /// A family named by its id, like ids without a name, so that it is found again; its group has the name.
   Hdf5Group family(std::string_view stem, int id, std::int32_t number, const std::string& name) {
     std::string& text = group_names_.emplace_back(name);
     text.resize(kNameBytes, '\0');

@@ -37,7 +37,7 @@ void read_vertices(TextReader& text, bool plane, MeshData& mesh) {
   }
 }
 
-/// Skips a section that Holdfast has no use for: everything up to the next keyword.
+/// Skips an unused section: everything up to the next keyword.
 void skip_section(TextReader& text, const std::string& keyword, MeshData& mesh) {
   mesh.remarks.push_back({RemarkKind::left_out, 1, "the section " + in_quotes(keyword) + " is left out"});
   while (!text.at_end()) {
@@ -51,14 +51,15 @@ void skip_section(TextReader& text, const std::string& keyword, MeshData& mesh) 
   }
 }
 
-/// Refuses elements that cannot be turned into facets or tetrahedra.
+/// Refuses elements that cannot become facets or tetrahedra.
 void refuse_elements(TextReader& text, const std::string& keyword) {
   if (text.count("the number of elements", 2) == 0) return;
   text.fail("the section " + in_quotes(keyword) +
             " is not read; split its elements into triangles or tetrahedra");
 }
 
-/// Reads the section of a keyword in lower case; whether it was the last one. `plane` tells the dimension.
+/// Reads the section of a lower-case keyword; returns whether it was the last. `plane` is set from the
+/// dimension.
 bool read_section(TextReader& text, const std::string& keyword, bool& plane, MeshData& mesh) {
   const std::size_t vertices = mesh.vertices.size();
   if (keyword == "end") return true;
@@ -120,7 +121,7 @@ MeshData read_medit(const Source& source) {
   static_cast<void>(text.integer("the version"));
   MeshData mesh(source);
   bool plane = false;
-  // Some programs leave End out. A section knows how long it is, so that only whole ones can be missing.
+  // Some programs omit End. A section knows its length, so only whole sections can be missing.
   while (!text.at_end() || mesh.vertices.empty()) {
     const std::string keyword = lower(text.word("a keyword or End"));
     if (keyword.empty() || keyword[0] < 'a' || keyword[0] > 'z')
@@ -134,7 +135,7 @@ MeshData read_medit(const Source& source) {
 
 namespace {
 
-/// With `nodes_of(i)` behind the corners, in a section of second order, if `second_order`. The order of nodes
+/// With `nodes_of(i)` after the corners, in a section of second order, if `second_order`. The order of nodes
 /// on edges is ours, 01 12 02 03 13 23.
 template <std::size_t N, typename NodesOf>
 void write_entities(AtomicWriter& out, const std::string& keyword, bool second_order,

@@ -9,11 +9,11 @@ namespace holdfast::io {
 namespace {
 
 struct FacetKey {
-  Triangle key;  // ascending corners
+  Triangle key;  // sorted corners
   Index facet;
 };
 
-/// Whether a face is an even turn of a facet of the same corners.
+/// Whether a face is an even permutation of a facet with the same corners.
 bool same_orientation(const Triangle& a, const Triangle& b) {
   for (std::size_t k = 0; k < 3; ++k)
     if (a[0] == b[k]) return a[1] == b[(k + 1) % 3];

@@ -1,4 +1,4 @@
-// MFEM's meshes (mfem.org, "Mesh formats"): version 1.0, and 1.3 where attributes have names.
+// MFEM's meshes (mfem.org, "Mesh formats"): version 1.0, and 1.3 if attributes have names.
 #include <algorithm>
 
 #include "io/cells.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr NameRule kNames{255, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 constexpr IdRule kIds{};
-constexpr int kSegment = 1, kTriangle = 2, kTetrahedron = 4, kPyramid = 7;  // 3 squares, 5 cubes, 6 prisms
+constexpr int kSegment = 1, kTriangle = 2, kTetrahedron = 4, kPyramid = 7;  // 3: squares, 5: cubes, 6: prisms
 
 class MfemReader {
  public:
@@ -71,7 +71,7 @@ class MfemReader {
     return kCorners[static_cast<std::size_t>(type - kSegment)];
   }
 
-  /// Lines of a name in quotes, a number of attributes and these. A set of one attribute names it.
+  /// Reads lines with a quoted name, a number of attributes, and these. A set of one attribute names it.
   void read_sets(NamedIds& names) {
     const std::size_t count = text_.count("the number of sets", 4);
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// Nodes on edges of a file's elements, as MidNodes or left out.
+// Nodes on the edges of a file's elements, as MidNodes or dropped.
 #include "io/mid_nodes.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ void mark(std::vector<bool>& marks, const std::vector<std::array<Index, N>>& ent
       if (v != no_entity) marks[v] = value;
 }
 
-/// Which vertices are nodes of elements, and corners of none.
+/// By vertex, whether it is a node of elements but a corner of none.
 std::vector<bool> no_corners(const MeshData& mesh) {
   std::vector<bool> marks(mesh.vertices.size());
   mark(marks, mesh.mids.tetrahedra, true);

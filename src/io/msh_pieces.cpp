@@ -2,8 +2,9 @@
 // file format"): one file, in which each part of a group is an entity, and so are the faces between each two
 // parts.
 //
-// Nodes have the whole's numbers, from 1. Elements are points, lines, triangles on facets, triangles between
-// parts, then tetrahedra with the whole's numbers behind those of all others. Parts count from 1.
+// Nodes have the numbers of the whole, from 1. The elements are points, lines, triangles on facets, triangles
+// between parts, and tetrahedra, numbered as in the whole but after all other elements. Parts are numbered
+// from 1.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,7 +20,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Which elements make up an entity: a group's, of one part, or of the two parts at faces.
+/// Identifies the elements of an entity: the group, and one part, or two for faces between parts.
 struct EntityKey {
   int dimension;
   bool between;  ///< faces between parts on no facet; then `id` is 0
@@ -36,7 +37,7 @@ struct Element {
   Index tetrahedron = no_entity;  ///< in the piece
 };
 
-/// What piece k adds to the file, none of it added by a piece before; by entity.
+/// What piece k adds to the file, by entity. No earlier piece adds the same.
 std::vector<Element> elements_of(const MeshPiece& piece, Index k) {
   std::vector<Element> elements;
   const Volume& volume = piece.volume;
@@ -74,7 +75,7 @@ std::vector<Element> elements_of(const MeshPiece& piece, Index k) {
   return elements;
 }
 
-/// What the head of the file tells, which takes a pass over the pieces.
+/// The contents of the file's header, gathered in a pass over the pieces.
 class Survey {
  public:
   Survey(std::size_t parts, const PieceLoader& load, Watch& watch) {
@@ -117,7 +118,7 @@ class Survey {
   [[nodiscard]] int id_in_file(const EntityKey& key) const {
     return file_ids_[static_cast<std::size_t>(key.dimension)].at(key.id);
   }
-  /// Tetrahedra have numbers behind all other elements.
+  /// Tetrahedra are numbered after all other elements.
   [[nodiscard]] std::uint64_t number(std::uint64_t tetrahedron) const {
     return elements - tetrahedra + tetrahedron + 1;
   }
@@ -152,7 +153,7 @@ class Survey {
     }
   }
 
-  /// Parents first; no two entities have one tag, also of different dimensions.
+  /// Parents come first. Tags are unique over all dimensions.
   void give_tags(std::size_t parts) {
     int next = 1;
     for (std::size_t d = 0; d < 4; ++d)
@@ -220,7 +221,7 @@ void write_partitioned(MshOut& to, const Survey& survey, std::size_t parts) {
   to.end_section("$EndPartitionedEntities");
 }
 
-/// Nodes lie on a volume of the least part that has them.
+/// Nodes belong to a volume of the lowest part that has them.
 void write_nodes(MshOut& to, const Survey& survey, std::size_t parts, const PieceLoader& load) {
   const auto blocks = static_cast<std::uint64_t>(
       std::count_if(survey.nodes_of_part.begin(), survey.nodes_of_part.end(), [](auto n) { return n > 0; }));
@@ -282,7 +283,7 @@ void write_elements(MshOut& to, const Survey& survey, std::size_t parts, const P
   to.end_section("$EndElements");
 }
 
-/// Each tetrahedron that is a ghost somewhere, its part, and the parts that have it as a ghost.
+/// Writes each tetrahedron that is a ghost somewhere, its part, and the parts that have it as a ghost.
 void write_ghosts(MshOut& to, const Survey& survey) {
   const auto same = [](const Survey::Ghost& a, const Survey::Ghost& b) {
     return a.tetrahedron == b.tetrahedron;

@@ -1,9 +1,9 @@
-// Reads Gmsh's .msh, versions 1 (which has no version), 2.x, 3, 4.0 and 4.1, ASCII and binary (Gmsh reference
-// manual, "File formats" and "Legacy formats").
+// Reads Gmsh's .msh, versions 1 (which states no version), 2.x, 3, 4.0 and 4.1, ASCII and binary (Gmsh
+// reference manual, "File formats" and "Legacy formats").
 //
-// A marker or region is the first physical tag, or the elementary entity's tag where there is none; the
-// marker of a vertex is the physical tag of a point element. Names are those of the physical groups. Vertices
-// are ordered by node tag, which is the order in which Holdfast numbers them.
+// A marker or region is the first physical tag or, without one, the elementary entity's tag; the marker of a
+// vertex is the physical tag of a point element. Names are those of the physical groups. Vertices are sorted
+// by node tag, the order in which Holdfast numbers them.
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -62,7 +62,7 @@ class MshReader {
     expect_end("$EndMeshFormat");
   }
 
-  /// The number 1 as bytes tells their order.
+  /// The bytes of the number 1 show the byte order.
   void read_byte_order(std::int64_t size) {
     if (size != 8 && !(has_entities() && size == 4))
       text_.fail("numbers of " + std::to_string(size) + " bytes are not read");
@@ -110,7 +110,7 @@ class MshReader {
     }
   }
 
-  /// Lines of a dimension, a tag and a name in quotes: text, also where numbers are bytes.
+  /// Reads lines with a dimension, a tag and a quoted name, which are text even in binary files.
   void read_names() {
     const std::size_t count = text_.count("the number of names", 5);
     for (std::size_t i = 0; i < count; ++i) {
@@ -152,13 +152,13 @@ class MshReader {
     }
   }
 
-  /// Where a node is on its entity.
+  /// Skips the parameters of a node on its entity.
   void skip_parameters(std::int64_t dimension) {
     for (std::int64_t axis = 0; axis < std::min<std::int64_t>(dimension, 3); ++axis)
       static_cast<void>(in_.real("a parametric coordinate"));
   }
 
-  /// Elements of physical and elementary tags, which count their nodes.
+  /// Reads elements of version 1: physical and elementary tags, then the number of nodes.
   void read_elements_1() {
     const std::size_t count = text_.count("the number of elements", 12);
     for (std::size_t i = 0; i < count; ++i) {
@@ -170,7 +170,7 @@ class MshReader {
     }
   }
 
-  /// Binary elements come in groups of one type; in text each one is such a group.
+  /// Binary elements come in groups of one type; in text, each element is a group.
   void read_elements_2() {
     const std::size_t count = in_.text_count("the number of elements", 6, 8);
     in_.begin();
@@ -193,7 +193,7 @@ class MshReader {
     }
   }
 
-  /// Elements of version 3, each with its entity, and with its parts behind its nodes.
+  /// Reads elements of version 3, each with its entity, and with its parts after its nodes.
   void read_elements_3() {
     const std::size_t count = in_.text_count("the number of elements", 8, 16);
     in_.begin();
@@ -212,7 +212,7 @@ class MshReader {
     }
   }
 
-  /// Entities of version 3, which are text, too, where numbers are bytes.
+  /// Reads entities of version 3, which are text even in binary files.
   void read_entities_3() {
     std::array<std::size_t, 4> counts{};
     for (std::size_t& count : counts) count = text_.count("the number of entities", 2);
@@ -237,7 +237,7 @@ class MshReader {
         read_bounds_and_physicals(dimension, in_.integer("an entity tag"));
   }
 
-  /// What stands behind the tag of an entity of either kind.
+  /// Reads what follows the tag of an entity of either kind.
   void read_bounds_and_physicals(std::size_t dimension, std::int64_t tag) {
     const int bounds = dimension == 0 && version_ == MshVersion::v4_1 ? 3 : 6;
     for (int bound = 0; bound < bounds; ++bound) static_cast<void>(in_.real("a bound"));
@@ -248,7 +248,8 @@ class MshReader {
     for (std::size_t k = 0; k < borders; ++k) static_cast<void>(in_.integer("an entity tag"));
   }
 
-  /// Entities by part. One whose parent has more dimensions lies between parts, and is none of the mesh.
+  /// Reads entities by part. An entity whose parent has more dimensions lies between parts and is not part of
+  /// the mesh.
   void read_partitioned_entities() {
     in_.begin();
     static_cast<void>(in_.size("the number of parts"));
@@ -268,7 +269,7 @@ class MshReader {
       }
   }
 
-  /// Nodes or elements of an entity.
+  /// The nodes or elements of an entity.
   struct Block {
     std::int64_t dimension;
     int entity;
@@ -284,7 +285,7 @@ class MshReader {
     block.count = in_.count(count, bytes_text, bytes_binary);
     return block;
   }
-  /// Version 4.1 has the bounds of tags before the blocks.
+  /// Version 4.1 states the bounds of tags before the blocks.
   void skip_bounds(const char* least, const char* largest) {
     if (version_ == MshVersion::v4_0) return;
     static_cast<void>(in_.size(least));
@@ -319,7 +320,7 @@ class MshReader {
       const int physical = groups_.of(entity), elementary = physical != 0 ? 0 : block.entity;
       const bool between = between_.contains(entity);
       for (std::size_t k = 0; k < block.count; ++k) {
-        static_cast<void>(node_tag());  // of the element, which takes as many bytes
+        static_cast<void>(node_tag());  // of the element; it has the size of a node tag
         if (between)
           skip_element(block.kind);
         else
@@ -375,7 +376,7 @@ class MshReader {
         const auto n = corners<6>();
         return add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, facet);
       }
-      case 11: {  // Gmsh has the last two edges the other way round
+      case 11: {  // Gmsh swaps the last two edges
         const auto n = corners<10>();
         return add_second_order(mesh_, Tetrahedron{n[0], n[1], n[2], n[3]},
                                 {n[4], n[5], n[6], n[7], n[9], n[8]}, region);
@@ -389,8 +390,8 @@ class MshReader {
     }
   }
 
-  /// An element of higher order, a quadrangle of second order, or a cell that is split: its corners come
-  /// first.
+  /// Reads an element of higher order, a quadrangle of second order, or a cell that is split: its corners
+  /// come first.
   void read_by_corners(std::int64_t type, const EntityIds::Ids& ids) {
     const MshByCorners* const found = by_corners(type);
     if (found == nullptr) in_.fail("elements of type " + std::to_string(type) + " are not read");

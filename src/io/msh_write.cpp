@@ -1,8 +1,8 @@
 // Writes Gmsh's .msh, versions 4.1 and 2.2, ASCII and binary (Gmsh reference manual, "File formats").
 //
-// Markers and region ids are physical tags, each group with a name. Gmsh takes 0 for no group and a negative
-// tag for a reversed orientation, so such ids get other numbers. Each group is an entity of its own; the
-// entities' tags differ between dimensions, too, since some readers tell groups by these.
+// Markers and region ids are physical tags, each group with a name. Ids below 1 get other numbers, because
+// for Gmsh 0 means no group and a negative tag a reversed orientation. Each group is an entity; entity tags
+// are unique over all dimensions, because some readers identify groups by them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +17,7 @@
 namespace holdfast::io {
 namespace {
 
-/// The entities of one dimension: their groups and how to get their nodes.
+/// The entities of one dimension: their groups and access to their nodes.
 struct Dimension {
   int number;
   int type;
@@ -81,7 +81,7 @@ void write_head(MshOut& to, std::string_view version, const MshData& data) {
                   &data.dimensions[3].labels});
 }
 
-/// Least and largest finite coordinates, "0 0 0 0 0 0" if there are none.
+/// The least and largest finite coordinates, all 0 if there are none.
 std::array<Point, 2> bounds(const std::vector<Point>& points) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Point low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
@@ -97,8 +97,8 @@ std::array<Point, 2> bounds(const std::vector<Point>& points) {
   return {low, high};
 }
 
-/// The entity of each group. No two have one tag, also of different dimensions, and a group's own where it is
-/// free, since GetFEM takes these for those of the groups.
+/// The entity tag of each group, unique over all dimensions. It equals the group's own tag if that is free,
+/// because GetFEM takes entity tags for group tags.
 using EntityTags = std::array<std::map<int, int>, 4>;
 
 EntityTags entity_tags(const MshData& data) {
@@ -117,7 +117,7 @@ EntityTags entity_tags(const MshData& data) {
   return tags;
 }
 
-/// The entity that all nodes lie on; a volume without elements where there is none.
+/// The entity of all nodes; an empty volume if there is none.
 std::pair<int, int> home_of_nodes(const EntityTags& tags) {
   for (const int d : {3, 2, 1})
     if (const auto& of = tags[static_cast<std::size_t>(d)]; !of.empty()) return {d, of.begin()->second};
@@ -156,7 +156,7 @@ void write_entities(MshOut& to, const MshData& data, const EntityTags& tags, std
   to.end_section("$EndEntities");
 }
 
-/// All nodes in one block, so that they stand in the order of their indices.
+/// Writes all nodes in one block, in the order of their indices.
 void write_nodes_4(MshOut& to, const Volume& volume, std::pair<int, int> home) {
   const std::uint64_t count = node_count(volume);
   to.out() << "$Nodes\n";

@@ -1,5 +1,5 @@
-// Netgen's .vol (Netgen, NGSolve: the text form of its meshes). Its tetrahedra have their second and third
-// corner the other way round.
+// Netgen's .vol (Netgen, NGSolve: the text form of its meshes). The second and third corners of its
+// tetrahedra are swapped.
 #include <algorithm>
 
 #include "io/cells.h"
@@ -11,7 +11,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Names are words. Netgen keeps arrays as long as the largest id.
+/// Names are words. Netgen allocates arrays as long as the largest id.
 constexpr NameRule kNames{255, "!$%&'()*+,-./:;<=>?@[]^_`{|}~", false, true, false, true};
 constexpr IdRule kIds{true, 1000000};
 
@@ -64,7 +64,7 @@ class VolReader {
     }
   }
 
-  /// Lines of numbers, the id and the number of nodes among them, and then the nodes.
+  /// Reads lines of numbers, among them the id and the number of nodes, followed by the nodes.
   void read_entities(std::vector<Entity>& entities, std::size_t before, std::size_t id, std::size_t nodes) {
     const std::size_t count = text_.count("the number of elements", 8);
     for (std::size_t i = 0; i < count; ++i) {
@@ -78,7 +78,7 @@ class VolReader {
       entity.position = text_.last();
       if (size < 1 || size > 20) text_.fail("an element of " + std::to_string(size) + " nodes");
       for (std::int64_t k = 0; k < size; ++k) entity.nodes.push_back(text_.integer("a point's number"));
-      text_.skip_line();  // parameters on the geometry may follow
+      text_.skip_line();  // geometry parameters may follow
       entities.push_back(std::move(entity));
     }
   }
@@ -104,7 +104,7 @@ class VolReader {
     }
   }
 
-  /// Lines that begin with a number belong to a section, whatever it is.
+  /// Skips an unknown section: its lines are those that begin with a number.
   void skip_section(const std::string& section) {
     if (section.empty() || !((section[0] >= 'a' && section[0] <= 'z')))
       text_.fail("expected a section, found " + in_quotes(section));
@@ -177,7 +177,7 @@ void write_nodes(AtomicWriter& out, const Nodes& nodes) {
   out << '\n';
 }
 
-/// Nodes of a tetrahedron in Netgen's order: with corners 0 2 1 3, on its edges 01 02 03 12 13 23.
+/// The nodes of a tetrahedron in Netgen's order: corners 0 2 1 3, then edges 01 02 03 12 13 23.
 Nodes netgen_tetrahedron(const Nodes& nodes) {
   const auto& n = nodes.of;
   return {{n[0], n[2], n[1], n[3], n[6], n[4], n[7], n[5], n[9], n[8]}, nodes.count};

@@ -1,5 +1,5 @@
-// Wavefront OBJ: v, f, l and p; groups or materials are markers; the rest describes looks (Wavefront Advanced
-// Visualizer, appendix B1).
+// Wavefront OBJ: v, f, l and p; groups or materials are markers; the rest concerns appearance (Wavefront
+// Advanced Visualizer, appendix B1).
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -15,7 +15,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Statements that say nothing about the mesh. Any other unknown one is an error, not a lost facet.
+/// Statements that do not affect the mesh. Any other unknown one is an error, so that no facet is lost.
 constexpr std::string_view kLooks[] = {
     "vt",       "vn",       "vp",     "vc",     "g",    "o",     "s",          "mg",
     "usemtl",   "mtllib",   "usemap", "maplib", "lod",  "bevel", "shadow_obj", "trace_obj",
@@ -27,7 +27,7 @@ class ObjReader {
   explicit ObjReader(const Source& source) : source_(source), mesh_(source) {}
 
   MeshData read() {
-    // Two passes, because an element may name a vertex that follows it.
+    // Two passes, because an element may name a later vertex.
     read_id_comments();
     each_line([&](std::string_view keyword, TextReader& text) {
       if (keyword != "v") return;
@@ -50,20 +50,20 @@ class ObjReader {
     }
   }
 
-  /// Comments of ours stand at the file's start.
+  /// Our comments stand at the start of the file.
   void read_id_comments() {
     TextReader text(source_, '\0');
     while (!text.remaining().empty() && text.remaining()[0] == '#')
       read_id_comment(text.rest_of_line().substr(1), std::array{&ids_});
   }
 
-  /// A line that ends with a backslash goes on in the next one.
+  /// Whether the line ends with a backslash and so continues.
   static bool continues(TextReader& text) {
     if (text.at_line_end() || text.remaining()[0] != '\\') return false;
     const std::string_view behind = text.remaining().substr(1);
     return behind.empty() || behind[0] == '\n' || behind[0] == '\r';
   }
-  /// Which all vertices have.
+  /// Whether a vertex has the weight 1, the only one allowed.
   static bool has_weight_of_one(TextReader& text) {
     return text.real("a weight or colour") == 1 && text.at_line_end();
   }
@@ -72,7 +72,7 @@ class ObjReader {
     }
   }
 
-  /// What of the line is left, which stays to be read.
+  /// The rest of the line, without consuming it.
   static std::string_view rest_on_line(const TextReader& text) {
     const std::string_view rest = text.remaining();
     return rest.substr(0, rest.find_first_of("\r\n#"));
@@ -94,7 +94,7 @@ class ObjReader {
       if (corners_.size() < 2) text.fail_at(start, "a line of fewer than 2 vertices");
       for (std::size_t i = 0; i + 1 < corners_.size(); ++i) mesh_.add_segment({corners_[i], corners_[i + 1]});
     } else if (keyword == "p") {
-      read_corners(text);  // isolated points are vertices already; the indices are checked
+      read_corners(text);  // isolated points are vertices already; this only checks the indices
     } else if (keyword == "curv" || keyword == "surf") {
       text.fail("free-form curves and surfaces are not read; export them as triangles");
     } else if (const auto looks = std::find(std::begin(kLooks), std::end(kLooks), keyword);
@@ -107,7 +107,7 @@ class ObjReader {
     }
   }
 
-  /// Groups are the markers if there are several of them, else materials.
+  /// Markers are groups if there are several of them, otherwise materials.
   void mark_facets() {
     const auto several = [](const std::vector<std::size_t>& labels) {
       return std::adjacent_find(labels.begin(), labels.end(), std::not_equal_to<>()) != labels.end();
@@ -123,7 +123,7 @@ class ObjReader {
                                       std::begin(kLooks))] = 0;
     };
     by_group ? (forget("g"), forget("o")) : forget("usemtl");
-    if (!several(labels)) {  // no markers, but a name for the facets without one
+    if (!several(labels)) {  // no markers, but a name for facets without one
       mesh_.names.facets[0] = labels_.name(labels[0]);
       return;
     }
@@ -156,7 +156,7 @@ class ObjReader {
     }
   }
 
-  /// The vertex of "v", "v/vt", "v//vn" or "v/vt/vn"; negative ones count back from the last vertex.
+  /// The vertex of "v", "v/vt", "v//vn" or "v/vt/vn"; negative indices count back from the last vertex.
   [[nodiscard]] Index corner(const TextReader& text, std::string_view word) const {
     std::int64_t value = 0;
     const char* const end = word.data() + word.size();
@@ -178,7 +178,7 @@ class ObjReader {
   std::vector<Index> corners_;
   std::array<std::size_t, std::size(kLooks)> looks_{};  ///< lines of each
 
-  /// Names by the number that each has here, 0 for none.
+  /// The names by marker number; number 0 means none.
   class NamesByNumber {
    public:
     std::size_t number(const std::string& name) {

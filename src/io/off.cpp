@@ -1,8 +1,8 @@
 // OFF, text and binary (Geomview's object file format, http://www.geomview.org/docs/html/OFF.html).
 //
-// Here a "face" of two corners is a segment and one of a single corner an isolated vertex, as in the
-// surfaces of Holdfast's corpus. What follows the coordinates or the corners (normals, colours, texture
-// coordinates) is left out.
+// A "face" of two corners is a segment and one of a single corner an isolated vertex, as in the surfaces of
+// Holdfast's corpus. What follows the coordinates or corners (normals, colours, texture coordinates) is
+// skipped.
 #include "io/byte_reader.h"
 #include "io/formats.h"
 #include "io/polygon.h"
@@ -17,7 +17,7 @@ struct Header {
   std::size_t floats_behind = 0;  ///< numbers behind the coordinates of a vertex
 };
 
-/// Skips what may stand before the header: "appearance" with how to draw the surface, in braces.
+/// Skips what may precede the header: "appearance" with display settings in braces.
 bool skip_appearance(TextReader& text) {
   const std::size_t start = text.position();
   constexpr std::string_view kKeyword = "appearance";
@@ -40,13 +40,13 @@ bool skip_appearance(TextReader& text) {
   text.fail_at(start, "the appearance has no closing brace");
 }
 
-/// Reads "[ST][C][N][4][n]OFF [BINARY]", which may be missing, and refuses other than three dimensions.
+/// Reads "[ST][C][N][4][n]OFF [BINARY]", which may be missing; requires three dimensions.
 Header read_header(TextReader& text) {
   Header header;
   const bool number = text.number_follows();
   const std::size_t start = text.position();
   std::string_view word = text.word("the keyword OFF");
-  // Unlike N for normals, n tells that the number of dimensions follows.
+  // Unlike N for normals, n announces the number of dimensions.
   const bool tells_dimensions = word.ends_with("nOFF");
   const std::string keyword = lower(word);
   if (!keyword.ends_with("off")) {
@@ -90,7 +90,7 @@ class OffReader {
   void read_text() {
     const std::size_t vertices = text_.count("the number of vertices", 6);
     const std::size_t faces = text_.count("the number of faces", 2);
-    text_.skip_line();  // the number of edges, which nobody maintains
+    text_.skip_line();  // the number of edges, which is unreliable
     mesh_.vertices.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
       mesh_.vertices.push_back(text_.point());
@@ -115,7 +115,7 @@ class OffReader {
     text_.skip_line();
   }
 
-  /// Big-endian numbers of 32 bits behind the header's line; the colour of a face has its count in front.
+  /// Reads big-endian 32-bit numbers after the header's line; the colour of a face has its count first.
   void read_bytes(const Header& header) {
     text_.skip_line();
     ByteReader bytes(source_, std::endian::big, text_.position());

@@ -1,8 +1,8 @@
 // Writes pieces as OpenFOAM's processes read them: a case with processork/constant/polyMesh.
 //
-// All processes have the same patches and zones in the same order, be they empty; those to other processes
-// come last, and their faces stand in the same order on both sides, begin with the same vertex, and turn the
-// other way.
+// All processes have the same patches and zones in the same order, even if empty. Patches to other processes
+// come last; their faces have the same order on both sides and start at the same vertex, with opposite
+// orientations.
 #include <system_error>
 
 #include "io/foam_mesh.h"
@@ -12,13 +12,13 @@
 namespace holdfast::io {
 namespace {
 
-/// constant/polyMesh without its last two names.
+/// The path without constant/polyMesh.
 std::filesystem::path case_of(const std::filesystem::path& path) {
   const std::filesystem::path constant = poly_mesh_of(path).parent_path();
   return constant.filename() == "constant" ? constant.parent_path() : constant;
 }
 
-/// OpenFOAM counts the folders of processes, so those of a run with more must not stay.
+/// OpenFOAM counts the folders of processes, so those left from a run with more must not exist.
 void require_no_more(const std::filesystem::path& path, std::size_t parts) {
   const std::filesystem::path next = case_of(path) / ("processor" + std::to_string(parts));
   std::error_code error;

@@ -1,6 +1,6 @@
-// Reads OpenFOAM's polyMesh of tetrahedra (OpenFOAM user guide, "Mesh description"): ASCII, each file packed
-// by gzip or not. Patches are the markers of faces on the boundary, face zones those of faces inside, cell
-// zones the regions.
+// Reads OpenFOAM's polyMesh of tetrahedra (OpenFOAM user guide, "Mesh description"): ASCII, each file
+// optionally compressed by gzip. Patches are the markers of boundary faces, face zones those of inner faces,
+// cell zones the regions.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace holdfast::io {
 namespace {
 
-/// One of the files, word by word. Brackets, braces and semicolons are words of their own.
+/// A file read word by word. Brackets, braces and semicolons are words.
 class FoamText {
  public:
   FoamText(const std::filesystem::path& path, Watch* watch)
@@ -78,7 +78,7 @@ class FoamText {
       fail(std::string(what) + " is " + std::to_string(value) + ", but there are " + std::to_string(size));
     return static_cast<Index>(value);
   }
-  /// A list: N ( ... ), before which "List<label>" may stand.
+  /// Reads a list: N ( ... ), optionally after "List<label>".
   template <typename Read>
   void list(std::string_view what, Read&& read) {
     if (peek().starts_with("List<")) word(what);
@@ -95,7 +95,7 @@ class FoamText {
     }
     expect(")");
   }
-  /// The same of at most `most` words, or N { value } where they are all the same.
+  /// The same for at most `most` words, or N { value } if all are equal.
   template <typename Read>
   void words(std::string_view what, std::size_t most, Read&& read) {
     const std::size_t begin = at_;
@@ -116,7 +116,7 @@ class FoamText {
     }
     expect("}");
   }
-  /// Behind the key of an entry that is not needed: up to its semicolon, or over its block.
+  /// Skips the value of an unused entry: up to its semicolon, or its block.
   void skip_entry() {
     for (std::size_t depth = 0;;) {
       const std::string_view found = word("the end of an entry");
@@ -126,7 +126,7 @@ class FoamText {
     }
   }
 
-  /// Ids and names of comments that Holdfast writes before the header: "// surface 3 inlet".
+  /// Reads ids and names from the comments that Holdfast writes before the header: "// surface 3 inlet".
   void read_ids(std::span<NamedIds* const> kinds) const {
     for (std::size_t at = text_.find("// "); at != std::string_view::npos; at = text_.find("// ", at + 1)) {
       const std::size_t end = std::min(text_.find('\n', at), text_.size());
@@ -203,7 +203,7 @@ class FoamReader {
   }
 
  private:
-  /// A file of the folder, packed or not; nothing if it is not there and need not be.
+  /// A file of the folder, compressed or not; nullopt if it is missing and not `needed`.
   std::optional<FoamText> open(const char* name, bool needed) {
     std::filesystem::path path = folder_ / name;
     std::error_code error;
@@ -298,7 +298,7 @@ class FoamReader {
     });
   }
 
-  /// Lists of entities by name: { type ...; KEY List<label> N ( ... ); ... }.
+  /// Reads named lists of entities: { type ...; KEY List<label> N ( ... ); ... }.
   template <typename Add>
   void read_zone_file(const char* name, const char* key, std::size_t size, NamedIds& ids, Add&& add) {
     auto file = open(name, false);
@@ -347,7 +347,7 @@ class FoamReader {
                     "member of a zone that is in another zone or patch");
   }
 
-  /// Four faces, each seen from outside, are a tetrahedron if they have four corners.
+  /// Four faces, oriented outwards, are a tetrahedron if they have four corners.
   void add_cells() {
     std::vector<std::array<Index, 4>> faces_of(cells_, {no_entity, no_entity, no_entity, no_entity});
     std::vector<std::uint8_t> count(cells_, 0);
@@ -363,7 +363,7 @@ class FoamReader {
       beat(watch_);
       if (count[cell] != 4) refuse(cell);
       const Index first = faces_of[cell][0];
-      Triangle base = faces_[first];  // seen from outside
+      Triangle base = faces_[first];  // oriented outwards
       if (owner_[first] != cell) std::swap(base[1], base[2]);
       Index top = no_entity;
       std::array<std::size_t, 4> used{};

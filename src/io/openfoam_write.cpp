@@ -1,6 +1,6 @@
 // Writes OpenFOAM's polyMesh (OpenFOAM user guide, "Mesh description"): patches by marker on the boundary,
-// cell zones by region, face zones by marker inside. A process of a parallel run has a mesh of its own, with
-// a patch for each other process that its faces border on.
+// cell zones by region, face zones by marker inside. Each process of a parallel run has its own mesh, with a
+// patch for each other process on which its faces border.
 #include <system_error>
 
 #include "io/foam_file.h"
@@ -73,7 +73,7 @@ void write_cell_zones(FoamFile& file, const FoamMesh& mesh) {
   file << ")\n";
 }
 
-/// Whether a face looks the other way than its facet.
+/// Whether a face is oriented against its facet.
 bool is_flipped(const Triangle& face, const Triangle& facet) {
   for (std::size_t k = 0; k < 3; ++k)
     if (face[0] == facet[k]) return face[1] != facet[(k + 1) % 3];
@@ -139,10 +139,10 @@ void write_foam_mesh(const std::filesystem::path& folder, const FoamMesh& mesh, 
   write_cell_zones(cell_zones, mesh);
   write_face_zones(face_zones, mesh, volume);
   FoamFile* const all[] = {&points, &faces, &owner, &neighbour, &boundary, &cell_zones, &face_zones};
-  // All are complete before any gets its name.
+  // All files are completed before any gets its name.
   for (FoamFile* file : all) file->finish();
   for (FoamFile* file : all) file->commit();
-  // OpenFOAM takes the plain file where both are there.
+  // OpenFOAM reads the uncompressed file if both exist.
   for (const std::filesystem::path& name : files_of_poly_mesh(folder)) {
     std::filesystem::path other = name;
     if (!gzip) other += ".gz";

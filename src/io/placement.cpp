@@ -22,7 +22,7 @@ Placement Placement::moved_by(const Point& shift) {
   return result;
 }
 
-// Rodrigues' formula.
+// By Rodrigues' formula.
 Placement Placement::turned(const Point& a, const Point& axis, double degrees) {
   const double s = sin_of_degrees(degrees), c = sin_of_degrees(degrees + 90);
   Placement turn;

@@ -1,4 +1,4 @@
-// Points and segments in the plane: .poly and .node of two dimensions (Shewchuk, Triangle,
+// Reads points and segments in the plane: two-dimensional .poly and .node (Shewchuk, Triangle,
 // https://www.cs.cmu.edu/~quake/triangle.poly.html).
 #include <cmath>
 #include <limits>
@@ -60,7 +60,7 @@ class PlaneReader {
     return {x, text.real("a coordinate")};
   }
 
-  /// Of a hole or region.
+  /// The point of a hole or region.
   PlanePoint finite_point(const char* what) {
     const PlanePoint p = point(text_);
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]))
@@ -146,7 +146,7 @@ class PlaneReader {
     name_regions(attributes);
   }
 
-  /// Regions have whole numbers here; attributes that are none get those from 1 on that no other has.
+  /// Regions need integer ids; for attributes that are none, unused integers from 1 on are taken.
   void name_regions(const std::vector<double>& attributes) {
     const auto whole = [](double a) {
       return a == std::rint(a) && std::abs(a) <= std::numeric_limits<int>::max();

@@ -1,4 +1,4 @@
-// Writes triangles of the plane: .off, .node with .ele and .edge, .vtu.
+// Writes triangles in the plane: .off, .node with .ele and .edge, .vtu.
 #include <algorithm>
 #include <stdexcept>
 
@@ -51,7 +51,7 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
     for (const Index v : t) ele << ' ' << base + v;
     ele << ' ' << mesh.regions[i] << '\n';
   }
-  // Of the edges, those that are segments.
+  // Only the edges that are segments are listed.
   const bool edges_marked = !mesh.segment_markers.empty();
   edge << std::uint64_t{mesh.segments.size()} << (edges_marked ? " 1\n" : " 0\n");
   for (std::size_t i = 0; i < mesh.segments.size(); ++i) {

@@ -14,7 +14,7 @@ namespace holdfast {
 namespace io {
 namespace {
 
-/// All that a file holds as facets: where there are none, its points are one.
+/// The contents of a file as facets; without any, all its points form one.
 std::vector<plane::PolygonFacet> facets_of(MeshData& mesh) {
   std::vector<plane::PolygonFacet> facets = std::move(mesh.polygons);
   for (const Triangle& t : mesh.facets) facets.push_back({{{t.begin(), t.end()}}, {}});
@@ -41,7 +41,7 @@ PlanesInSpace planes_of(const Source& source, MeshData&& mesh) {
   return planes;
 }
 
-/// Whether a .poly or .node begins with "n 3", so that it is one of space.
+/// Whether a .poly or .node begins with "n 3" and is therefore three-dimensional.
 bool has_three_dimensions(const Source& source) {
   TextReader text(source);
   static_cast<void>(text.count("the number of points", 6));

@@ -1,8 +1,8 @@
 // PLY, ASCII and binary (Turk, The PLY polygon file format, 1994).
 //
-// Read are vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2}, of each also
-// an integer "marker", tristrips {vertex_indices}, and names in comments; other elements and properties are
-// skipped.
+// Reads vertex {x, y, z}, face {vertex_indices or vertex_index} and edge {vertex1, vertex2}, each optionally
+// with an integer "marker", tristrips {vertex_indices}, and names in comments. Other elements and properties
+// are skipped.
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -91,7 +91,8 @@ Property read_property(TextReader& text) {
 /// Reads the header and leaves `text` at the first byte of the data.
 Header read_header(TextReader& text) {
   if (text.word("ply") != "ply") text.fail("not a PLY file: it does not start with 'ply'");
-  // Where data starts behind "end_header\r" is told by how the first line ends.
+  // The first line's ending shows whether data starts after "end_header\r" or "end_header\r
+  // ".
   const bool crlf = text.remaining().starts_with("\r\n");
   Header header;
   bool has_format = false;
@@ -115,7 +116,7 @@ Header read_header(TextReader& text) {
       read_id_comment(rest.substr(0, rest.find_first_of("\r\n")),
                       std::array{&header.facets, &header.vertices, &header.segments});
     } else if (header.elements.empty() && keyword != "obj_info") {
-      // Blender 2.47 tells there who made the file. Behind an element it could be a misspelt one.
+      // Blender 2.47 names the file's author there. After an element it could be a misspelt property.
       header.others.emplace_back(keyword);
     } else if (keyword != "obj_info") {
       text.fail("unknown keyword " + in_quotes(keyword) + " in the header");
@@ -182,13 +183,13 @@ class BinaryValues {
   void require(std::uint64_t count, std::size_t bytes_each, const char* what) const {
     bytes_.require_items(count, bytes_each, what);
   }
-  /// Errors name the byte where the entity starts.
+  /// Fails with the byte position where the entity starts.
   [[noreturn]] void fail(const std::string& reason) {
     bytes_.seek(entity_);
     bytes_.fail(reason);
   }
   void begin_entity() { entity_ = bytes_.position(); }
-  /// Some programs end the file with a line break, or with zeros up to a whole block.
+  /// Some programs end the file with a line break, or pad it with zeros to a whole block.
   void require_end() const {
     ByteReader behind = bytes_;
     if (behind.take(behind.left()).find_first_not_of(std::string_view("\r\n\0", 3)) != std::string_view::npos)
@@ -230,7 +231,7 @@ class PlyReader {
   }
 
  private:
-  /// Says which properties of what is read, and which elements, have no place in a mesh.
+  /// Reports elements, and properties of elements read, that have no place in a mesh.
   void tell_skipped() {
     std::string words;
     for (const std::string& word : header_.others) words += (words.empty() ? "" : ", ") + in_quotes(word);
@@ -255,7 +256,7 @@ class PlyReader {
     }
   }
 
-  /// What names vertices can be judged only behind them.
+  /// Elements that name vertices can only be checked after them.
   void require_vertices_before(const Element& element) {
     const bool names_vertices =
         element.name == "face" || element.name == "edge" || element.name == "tristrips";
@@ -274,7 +275,7 @@ class PlyReader {
     return size;
   }
 
-  /// Where the property of one of two names stands; throws if there is none.
+  /// The position of the property with one of two names; throws if there is none.
   std::size_t find(const Element& element, std::string_view name, std::string_view other = {}) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const Property& property = element.properties[i];
@@ -284,7 +285,7 @@ class PlyReader {
                   "the element " + in_quotes(element.name) + " has no property " + in_quotes(name));
   }
 
-  /// Where the property "marker" stands, if there is one of integers.
+  /// The position of the property "marker", if it exists and is an integer.
   static std::size_t find_marker(const Element& element) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const Property& property = element.properties[i];
@@ -373,7 +374,7 @@ class PlyReader {
     }
   }
 
-  /// Each list holds strips, which end with negative numbers.
+  /// Each list contains strips, which end with negative numbers.
   void read_strips(const Element& element) {
     const std::size_t list = find(element, "vertex_indices", "vertex_index");
     if (!element.properties[list].count_type)

@@ -1,7 +1,6 @@
-// Reads VTK's parallel XML format, whose file names the pieces of processes
-// (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html, "PUnstructuredGrid"): copies of other
-// pieces' cells are left out, and points are joined by their ids in the whole, or by their places where they
-// have none.
+// Reads VTK's parallel XML format, whose file lists the pieces of processes
+// (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html, "PUnstructuredGrid"). Copies of other
+// pieces' cells are skipped, and points are joined by their global ids or, without ids, by their places.
 #include <set>
 #include <system_error>
 #include <utility>
@@ -20,7 +19,7 @@ struct NamedPiece {
   fs::path path;
 };
 
-/// The pieces in their order. Throws FileError for the line of a name that is none.
+/// The pieces in order. Throws FileError, with the line, for an invalid name.
 std::vector<NamedPiece> named_pieces(const Source& source, XmlReader& xml) {
   std::vector<NamedPiece> pieces;
   std::set<fs::path> seen;
@@ -93,7 +92,7 @@ std::vector<fs::path> pvtu_files(const fs::path& path) {
       files.push_back(surface_beside(without_gz(piece.path)));
     }
   } catch (const FileError&) {
-    // The reader says so.
+    // The reader reports it.
   }
   return files;
 }

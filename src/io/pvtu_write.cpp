@@ -1,7 +1,7 @@
 // Writes pieces as VTK's parallel XML format
-// (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html, "PUnstructuredGrid"): a grid a piece,
-// and the file that names them. Ghosts have 1 in vtkGhostType, as VTK's vtkDataSetAttributes::DUPLICATECELL
-// and DUPLICATEPOINT.
+// (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html, "PUnstructuredGrid"): one grid per
+// piece, and a file that lists them. Ghosts have 1 in vtkGhostType, as VTK's
+// vtkDataSetAttributes::DUPLICATECELL and DUPLICATEPOINT.
 #include <bit>
 #include <system_error>
 
@@ -39,7 +39,7 @@ std::vector<std::int64_t> signed_numbers(const std::vector<std::uint64_t>& numbe
   return {numbers.begin(), numbers.end()};
 }
 
-/// Rows of the other part and the three vertices of a face.
+/// Rows with the other part and the three vertices of a face.
 VtuTable interface_table(const MeshPiece& piece) {
   VtuTable table{kInterfaces, 4, {}};
   for (const MeshPiece::Interface& interface : piece.interfaces)
@@ -73,12 +73,12 @@ void write_grid(AtomicWriter& out, const MeshPiece& piece, std::size_t part, con
   if (!piece.volume.input_vertices.empty())
     arrays.point_data.push_back(vtu_array("input_vertex", piece.volume.input_vertices));
   arrays.field_data = vtk_fields(piece.volume.names);
-  arrays.field_data[kSurfaceBeside] = {{1, -1}};  // of no dimension, so that it names nothing
+  arrays.field_data[kSurfaceBeside] = {{1, -1}};  // names nothing, because it has no dimension
   arrays.tables = {interface_table(piece)};
   write_vtu_arrays(out, arrays, options);
 }
 
-/// Facets and segments with their own points.
+/// Writes facets and segments with their own points.
 void write_surface_grid(AtomicWriter& out, const MeshPiece& piece, std::size_t part,
                         const WriteOptions& options) {
   const Volume& volume = piece.volume;
@@ -158,7 +158,7 @@ std::filesystem::path pvtu_piece(const std::filesystem::path& path, std::size_t 
 void write_pvtu(const std::filesystem::path& path, std::size_t parts, const PieceLoader& load,
                 const WriteOptions& options, Watch& watch) {
   const std::filesystem::path surface = surface_beside(path);
-  // An old index must not name new pieces beside old ones.
+  // An old list must not name new pieces mixed with old ones.
   std::error_code error;
   for (const auto& index : {path, surface}) std::filesystem::remove(index, error);
   for (std::size_t k = 0; k < parts; ++k) {

@@ -1,4 +1,4 @@
-// Size fields: a background mesh with a size or a metric at each vertex, in the files of GMF, VTK, TetGen and
+// Size fields: a background mesh with a size or a metric at each vertex, in formats of GMF, VTK, TetGen and
 // Gmsh.
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ bool is_there(const std::filesystem::path& path) {
   return std::filesystem::exists(path, error);
 }
 
-// A size, or a metric if the tensor has its six numbers there, m11 m12 m22 m13 m23 m33.
+// A value is a size, or a metric if it has the six numbers m11 m12 m22 m13 m23 m33.
 constexpr std::size_t kTensor = 6;
 
 double read_size(TextReader& text) {
@@ -41,7 +41,7 @@ void read_value(TextReader& text, std::size_t columns, SizeField& field) {
   field.metrics.push_back(m);
 }
 
-/// A full matrix, row by row; nothing if it is not symmetric, but for rounding in a file.
+/// A full matrix, row by row; nullopt if it is not symmetric up to rounding in a file.
 std::optional<Metric> symmetric(std::span<const double> rows) {
   constexpr double kSlack = 1e-5;
   const double most = kSlack * (std::abs(rows[0]) + std::abs(rows[4]) + std::abs(rows[8]));
@@ -63,7 +63,7 @@ void require_as_many(const std::filesystem::path& path, std::size_t values, std:
                         std::to_string(vertices));
 }
 
-/// GMF's .sol: a scalar or a symmetric tensor a vertex of the mesh of the same name.
+/// GMF's .sol: a scalar or a symmetric tensor per vertex of the mesh of the same name.
 SizeField read_sol(const Source& source, std::size_t vertices) {
   TextReader text(source);
   for (;;) {
@@ -90,7 +90,7 @@ SizeField read_sol(const Source& source, std::size_t vertices) {
   return field;
 }
 
-/// Its binary form.
+/// The binary form of .sol.
 SizeField read_solb(const Source& source, std::size_t vertices) {
   GmfSolution solution = read_gmf_solution(source);
   require_as_many(source.path, solution.vertices, vertices);
@@ -104,7 +104,7 @@ SizeField read_solb(const Source& source, std::size_t vertices) {
   return field;
 }
 
-/// The file beside `path` with one of two endings, the first if both are there.
+/// The file beside `path` with one of two extensions; the first if both exist.
 std::filesystem::path beside(const std::filesystem::path& path, const char* ending, const char* other) {
   const std::filesystem::path first = sibling(path, ending), second = sibling(path, other);
   if (is_there(first)) return first;
@@ -115,7 +115,7 @@ std::filesystem::path beside(const std::filesystem::path& path, const char* endi
   return second;
 }
 
-/// A mesh and the values at its vertices in another file, of which `path` is either.
+/// Reads a mesh and the values at its vertices from two files; `path` is either of them.
 SizeField read_mesh_and_sol(const std::filesystem::path& path, const std::string& extension, Watch& watch) {
   const bool is_mesh = extension == ".mesh" || extension == ".meshb";
   const std::filesystem::path mesh_path = is_mesh ? path : beside(path, ".mesh", ".meshb"),
@@ -127,7 +127,7 @@ SizeField read_mesh_and_sol(const std::filesystem::path& path, const std::string
   return on_mesh(std::move(mesh), std::move(field));
 }
 
-/// TetGen's .mtr: a line "count columns", then a size or a symmetric tensor a vertex.
+/// TetGen's .mtr: a line "count columns", then a size or a symmetric tensor per vertex.
 SizeField read_mtr(const Source& source) {
   TextReader text(source);
   const std::size_t count = text.count("the number of vertices", 2);
@@ -179,7 +179,7 @@ SizeField read_pos(const Source& source) {
   return field;
 }
 
-/// One array of the points: scalars, VTK's symmetric tensors (xx yy zz xy yz xz), or full ones.
+/// Reads one array of points: scalars, VTK's symmetric tensors (xx yy zz xy yz xz), or full ones.
 SizeField field_of(const PointArray& array, const std::filesystem::path& path) {
   SizeField field;
   if (array.components == 1) {

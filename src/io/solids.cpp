@@ -8,7 +8,7 @@
 namespace holdfast::io {
 namespace {
 
-// Copies of copies grow exponentially with the length of a file.
+// Nested copies can grow exponentially with the length of a file.
 constexpr std::size_t kMostCopies = 1 << 20, kHarmless = std::size_t{1} << 22, kMostTimes = 1000;
 
 }  // namespace

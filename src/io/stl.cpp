@@ -1,8 +1,7 @@
 // STL, ASCII and binary (3D Systems, StereoLithography Interface Specification, 1989).
 //
-// Vertices with identical coordinates are welded: the format repeats them in every triangle. Where
-// an ASCII file holds several solids, facets carry the solid's number from 1 as their marker, whose name is
-// the solid's.
+// Vertices with identical coordinates are merged, because the format repeats them in every triangle. If an
+// ASCII file has several solids, the marker of a facet is its solid's number from 1, named after the solid.
 #include <algorithm>
 #include <array>
 
@@ -19,18 +18,18 @@ namespace {
 constexpr std::size_t kHeader = 80, kRecord = 50;
 constexpr std::uint32_t kUnknown = 0xFFFFFFFF;
 
-/// Number of triangles that a binary file's header announces.
+/// The number of triangles that a binary file's header announces.
 std::uint32_t announced(std::string_view bytes) {
   return load<std::uint32_t>(bytes.data() + kHeader, std::endian::little);
 }
 
 bool is_binary(std::string_view bytes) {
   if (bytes.size() < kHeader + 4) return false;
-  // Binary files may start with "solid" too, so their exact size decides first.
+  // Binary files may start with "solid", too, so their exact size decides first.
   if (bytes.size() == kHeader + 4 + kRecord * std::uint64_t{announced(bytes)}) return true;
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), bytes.size());
   if (lower(bytes.substr(first, 5)) != "solid") return true;
-  // Text holds no zero byte, but perhaps at its end; a binary file's numbers do.
+  // Text has zero bytes only at its end, if at all; the numbers of a binary file have some.
   return bytes.find('\0') <= bytes.find_last_not_of('\0') && bytes.find('\0') != std::string_view::npos;
 }
 
@@ -38,7 +37,7 @@ MeshData read_binary(const Source& source) {
   ByteReader bytes(source, std::endian::little, kHeader);
   auto count = bytes.read<std::uint32_t>();
   MeshData mesh;
-  // Programs that do not know the number when they begin leave one of these there.
+  // Programs that do not know the number in advance leave one of these.
   const std::uint64_t whole = bytes.left() / kRecord;
   if ((count == 0 || count == kUnknown) && whole > 0 && bytes.left() % kRecord == 0 && whole < kUnknown) {
     mesh.remarks.push_back(
@@ -54,8 +53,8 @@ MeshData read_binary(const Source& source) {
                counted(behind, "more byte follows", "more bytes follow") + (count == 1 ? " it" : " them"));
   mesh.facets.reserve(count);
   mesh.vertices.reserve(count / 2);
-  Welder weld(mesh.vertices, count / 2);  // a closed surface has half as many vertices
-  // A batch of points is decoded and announced before the first of them is looked up.
+  Welder weld(mesh.vertices, count / 2);  // a closed surface has half as many vertices as facets
+  // A batch of points is decoded and prefetched before the first lookup.
   constexpr std::uint32_t kBatch = 16;
   std::array<Point, 3 * kBatch> points;
   std::array<std::uint64_t, 3 * kBatch> hashes;
@@ -64,7 +63,7 @@ MeshData read_binary(const Source& source) {
     beat(source.watch);
     const std::size_t corners = 3 * std::size_t{std::min(kBatch, count - first)};
     for (std::size_t i = 0; i < corners; ++i) {
-      const char* corner = record + kRecord * (i / 3) + 12 * (i % 3 + 1);  // behind the normal's 12 bytes
+      const char* corner = record + kRecord * (i / 3) + 12 * (i % 3 + 1);  // after the normal's 12 bytes
       for (std::size_t axis = 0; axis < 3; ++axis)
         points[i][axis] = load<float>(corner + 4 * axis, std::endian::little);
       hashes[i] = weld.announce(points[i]);
@@ -84,7 +83,7 @@ MeshData read_binary(const Source& source) {
   return mesh;
 }
 
-/// Reads the keywords of a list, one after the other, in any case.
+/// Reads a sequence of keywords in any case.
 void expect(TextReader& text, std::initializer_list<std::string_view> keywords) {
   for (const std::string_view keyword : keywords) {
     const std::string quoted_keyword = in_quotes(keyword);
@@ -93,7 +92,7 @@ void expect(TextReader& text, std::initializer_list<std::string_view> keywords) 
   }
 }
 
-/// Reads a facet behind its keyword.
+/// Reads a facet after its keyword.
 Triangle read_facet(TextReader& text, Welder& weld) {
   expect(text, {"normal"});
   for (int axis = 0; axis < 3; ++axis) static_cast<void>(text.word("a normal's component"));
@@ -107,8 +106,8 @@ Triangle read_facet(TextReader& text, Welder& weld) {
   return facet;
 }
 
-/// Solids are numbered from 1, but for those whose name tells another number, as those that Holdfast writes
-/// for markers without one.
+/// Solids are numbered from 1, unless all their names contain a number, as Holdfast writes for markers
+/// without a name.
 std::vector<int> ids_of(const std::vector<std::string>& solids, std::map<int, std::string>& names) {
   bool told = true;
   for (const std::string& solid : solids) told = told && id_of_default_name(kFacetStem, solid).has_value();
@@ -130,7 +129,7 @@ MeshData read_ascii(const Source& source) {
     expect(text, {"solid"});
     names.push_back(cleaned_name(text.rest_of_line()));
     for (;;) {
-      if (!mesh.facets.empty() && text.at_end()) {  // some programs leave it out
+      if (!mesh.facets.empty() && text.at_end()) {  // some programs omit it
         mesh.remarks.push_back(
             {RemarkKind::left_out, 1, "the file ends without 'endsolid': triangles may be missing"});
         break;
@@ -143,7 +142,7 @@ MeshData read_ascii(const Source& source) {
     text.skip_line();
     solid_ends.push_back(mesh.facets.size());
   } while (!text.at_end());
-  if (solid_ends.size() == 1) {  // no markers, but a name for the facets without one
+  if (solid_ends.size() == 1) {  // no markers, but a name for facets without one
     if (!names[0].empty()) mesh.names.facets[0] = names[0];
     return mesh;
   }

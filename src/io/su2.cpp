@@ -19,7 +19,7 @@ class Su2Reader {
   explicit Su2Reader(const Source& source) : text_(source, '\0') {}
 
   MeshData read() {
-    // Nodes may follow the elements that name them: their number is looked for first.
+    // Nodes may follow the elements that name them, so their number is found first.
     find_points();
     while (next()) read_section();
     if (!has_dimension_) text_.fail("there is no NDIME=, so this is no SU2 mesh");
@@ -54,14 +54,14 @@ class Su2Reader {
     text_.seek(0);
   }
 
-  /// "KEY= value"; the key in lower case, empty where there is none.
+  /// "KEY= value", with the key in lower case; the key is empty if there is none.
   [[nodiscard]] std::pair<std::string, std::string_view> pair() const {
     const std::size_t equals = line_.find('=');
     if (equals == std::string_view::npos) return {};
     return {lower(trimmed(line_.substr(0, equals))), trimmed(line_.substr(equals + 1))};
   }
 
-  /// The first word of a value, as a number of lines that the rest of the file can hold.
+  /// The first word of a value, as a number of lines that fits into the rest of the file.
   std::size_t count(std::string_view value, std::size_t bytes_each) {
     const std::int64_t number =
         integer_of(text_, value.substr(0, value.find_first_of(" \t")), "a number of lines");
@@ -155,7 +155,7 @@ class Su2Reader {
     }
   }
 
-  /// What is cut depends on the points, which may follow.
+  /// How cells are cut depends on the points, which may come later.
   void add_what_is_cut() {
     for (const Cut& cut : cuts_) {
       const std::span<const Index> n = std::span(cut.corners).first(cut.count);
@@ -183,7 +183,7 @@ class Su2Reader {
   NamedIds names_{kFacetStem};
 };
 
-/// Facets with a tetrahedron on one side alone: SU2 takes markers for the boundary.
+/// Whether each facet has a tetrahedron on one side only: SU2 has markers only on the boundary.
 std::vector<bool> on_boundary(const Volume& volume) {
   std::vector<bool> result;
   result.reserve(volume.facets.size());

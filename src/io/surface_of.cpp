@@ -1,4 +1,4 @@
-// The surface of a volume: what to mesh again, without its inner vertices.
+// The surface of a volume, without inner vertices, to be meshed again.
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -10,7 +10,7 @@ namespace holdfast {
 namespace {
 
 struct FaceOfTet {
-  Triangle key;  // ascending corners
+  Triangle key;  // sorted corners
   Index tet = 0;
   std::uint8_t side = 0;
 };
@@ -19,7 +19,7 @@ Triangle corners(const Volume& volume, const FaceOfTet& face) {
   return outward_face(volume.tetrahedra[face.tet], face.side);
 }
 
-// Faces with one tetrahedron, or with two of different regions: of these, as the first one has them.
+// Faces with one tetrahedron, or with two in different regions; the latter oriented as in the first one.
 std::vector<FaceOfTet> bounding_faces(const Volume& volume) {
   std::vector<FaceOfTet> all;
   all.reserve(4 * volume.tetrahedra.size());
@@ -42,7 +42,7 @@ std::vector<FaceOfTet> bounding_faces(const Volume& volume) {
   return bounding;
 }
 
-// Leaves out the vertices that no facet and no segment uses.
+// Drops the vertices without a facet or segment.
 void drop_unused_vertices(Surface& surface) {
   std::vector<bool> used(surface.vertices.size());
   for (const Triangle& t : surface.facets)
@@ -78,7 +78,7 @@ Surface surface_of(const Volume& volume) {
   surface.segment_markers = volume.segment_markers;
   surface.vertex_markers = volume.vertex_markers;
   surface.names = volume.names;
-  surface.names.regions.clear();  // `mesh` numbers them anew
+  surface.names.regions.clear();  // `mesh` numbers regions anew
   std::vector<Triangle> listed;
   for (const Triangle& t : volume.facets) listed.push_back(ascending(t));
   std::sort(listed.begin(), listed.end());

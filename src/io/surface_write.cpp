@@ -1,4 +1,4 @@
-// Writes surfaces: text formats that hold nothing else, and those of volumes without tetrahedra.
+// Writes surfaces: in text formats that hold nothing else, and in volume formats without tetrahedra.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@ AtomicWriter& operator<<(AtomicWriter& out, const Point& p) {
   return out << p[0] << ' ' << p[1] << ' ' << p[2];
 }
 
-/// Segments are faces of two corners, isolated vertices of one, as the reader takes them.
+/// Writes segments as faces of two corners and isolated vertices as faces of one, as the reader expects.
 void write_off(AtomicWriter& out, const Surface& surface) {
   const std::vector<Index> isolated = isolated_vertices(surface.view());
   out << "OFF\n"
@@ -38,7 +38,7 @@ void write_off(AtomicWriter& out, const Surface& surface) {
   for (const Index v : isolated) out << "1 " << v << '\n';
 }
 
-/// STL's solids and OBJ's groups take a name up to the line's end; groups are words.
+/// A name of an STL solid or OBJ group extends to the line's end; groups are words.
 constexpr NameRule kSolids{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 constexpr NameRule kGroups{1000, "!$%&'()*+,-./:;<=>?@[]^_`{|}~", false, true, false, true};
 constexpr NameRule kComments{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
@@ -88,7 +88,7 @@ void write_ply(AtomicWriter& out, const Surface& surface) {
   }
 }
 
-/// A unit normal, or zero where doubles tell none; readers take no notice of it.
+/// A unit normal, or zero if it cannot be computed; readers ignore it.
 Point normal_of(const Surface& surface, const Triangle& t) {
   const Point &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
   std::array<double, 3> u{}, v{};
@@ -109,7 +109,7 @@ void write_stl(AtomicWriter& out, const Surface& surface) {
   std::sort(solids.begin(), solids.end());
   solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
   for (const int solid : solids) {
-    // What is not marked at all needs no name.
+    // Unmarked facets need no name.
     const std::string name = has_sets(surface) && labels.names.contains(solid) ? labels.names.at(solid) : "";
     out << "solid " << name << '\n';
     for (std::size_t f = 0; f < surface.facets.size(); ++f) {
@@ -144,7 +144,7 @@ void write_poly(AtomicWriter& out, const Surface& surface) {
   out << std::uint64_t{surface.regions.size()} << '\n';
   for (std::size_t r = 0; r < surface.regions.size(); ++r) {
     const RegionSeed& seed = surface.regions[r];
-    // An edge of a regular tetrahedron, as its volume.
+    // The volume of the regular tetrahedron with edges of this size.
     const double volume = seed.size > 0 ? seed.size * seed.size * seed.size / (6 * std::sqrt(2.0)) : -1;
     out << std::uint64_t{r} << ' ' << seed.where << ' ' << seed.id << ' ' << volume << '\n';
   }

@@ -1,8 +1,8 @@
 // TetGen's surfaces, .poly and .smesh, and bare points, .node (Si, TetGen, a Delaunay-based quality
 // tetrahedral mesh generator, ACM TOMS 41(2), 2015; manual, section 5.2).
 //
-// A polygon of two corners is a segment, one of a single corner a vertex, one of more than three is cut into
-// triangles. A facet of several polygons, or with holes, is what these enclose together.
+// A polygon of two corners is a segment, one of a single corner a vertex; one of more than three is cut into
+// triangles. A facet of several polygons, or with holes, is what they enclose together.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@
 namespace holdfast::io {
 namespace {
 
-/// By Newton's method, whose arithmetic is the same everywhere, which that of std::cbrt is not.
+/// By Newton's method, whose arithmetic is the same everywhere, unlike std::cbrt.
 double cube_root(double x) {
   int exponent = 0;
   double m = std::frexp(x, &exponent);
@@ -49,7 +49,7 @@ class PolyReader {
 
   void read_facets() {
     const std::size_t count = text_.count("the number of facets", 2);
-    // Whether markers follow is told here, but a marker at the end of a line cannot be anything else.
+    // The line announces markers, but a marker at the end of a line is unambiguous anyway.
     text_.skip_line();
     mesh_.facets.reserve(count);
     for (std::size_t i = 0; i < count; ++i) smesh_ ? read_smesh_facet() : read_poly_facet();
@@ -88,9 +88,8 @@ class PolyReader {
       add_apart(facet, marker, positions);
   }
 
-  /// What the polygons of a facet enclose together, and its segments. False for polygons that are to be taken
-  /// each by itself: a single one, or those that lie in no plane or cross each other, of which `diagnose`
-  /// then tells.
+  /// Adds what the polygons of a facet enclose together, and its segments. Returns false for polygons to be
+  /// taken separately: a single one, or polygons that are not coplanar or cross, which `diagnose` reports.
   bool add_together(const plane::PolygonFacet& facet, int marker, std::size_t start) {
     const auto is_area = [](const std::vector<Index>& polygon) { return polygon.size() >= 3; };
     const bool area = std::any_of(facet.polygons.begin(), facet.polygons.end(), is_area);
@@ -115,7 +114,7 @@ class PolyReader {
     }
   }
 
-  /// Reads "size corner...", which may go on in the next line.
+  /// Reads "size corner...", which may continue in the next line.
   void read_corners() {
     corners_.resize(text_.count("the number of corners", 2));
     for (Index& corner : corners_) corner = text_.index("a vertex index", base_, mesh_.vertices.size());
@@ -158,7 +157,7 @@ class PolyReader {
                " H = (6 sqrt(2) V)^(1/3)"});
   }
 
-  /// The edge of the regular tetrahedron that has the largest volume of a region; 0 for no limit.
+  /// The edge of the regular tetrahedron with the largest volume allowed in a region; 0 for no limit.
   double read_size() {
     constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
     const double volume = text_.real("a region's largest volume");

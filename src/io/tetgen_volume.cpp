@@ -1,4 +1,4 @@
-// TetGen's volumes: .node, .ele, .face and .edge beside one another (manual, section 5.2).
+// TetGen's volumes: .node, .ele, .face and .edge side by side (manual, section 5.2).
 #include <limits>
 #include <system_error>
 
@@ -14,8 +14,8 @@ std::filesystem::path with_extension(std::filesystem::path path, const char* ext
   return path.replace_extension(extension);
 }
 
-/// Reads the lines "number node... tag..." of one of the files, behind its header; the tag is the first
-/// number behind the nodes, 0 where there is none. Returns how many lines have further attributes.
+/// Reads the lines "number node... tag..." of one of the files, after its header; the tag is the first number
+/// after the nodes, or 0. Returns how many lines have further attributes.
 template <std::size_t N, typename Add>
 std::size_t read_lines(TextReader& text, const char* what, const TetgenNodes& nodes, std::size_t count,
                        std::int64_t attributes, Add&& add) {
@@ -37,7 +37,7 @@ std::size_t read_lines(TextReader& text, const char* what, const TetgenNodes& no
   return attributes > 1 ? count : 0;
 }
 
-/// Reads a file that may be missing.
+/// Reads an optional file.
 template <std::size_t N, typename Add>
 void read_optional(const std::filesystem::path& path, Watch* watch, const char* what,
                    const TetgenNodes& nodes, Add&& add) {
@@ -50,7 +50,7 @@ void read_optional(const std::filesystem::path& path, Watch* watch, const char* 
   static_cast<void>(read_lines<N>(text, what, nodes, count, 1, add));
 }
 
-/// With nodes on edges behind the corners, if there are any.
+/// Writes entities with the nodes on their edges, if any, after the corners.
 template <std::size_t N, std::size_t M>
 void write_lines(AtomicWriter& out, std::string_view columns,
                  const std::vector<std::array<Index, N>>& entities,
@@ -81,7 +81,7 @@ MeshData read_tetgen_volume(const Source& source) {
   const char* const number = "the tetrahedron's number";
   const bool second = corners == 10;
   const auto add_tet = [&](const Tetrahedron& t, int region) { mesh.add_tetrahedron(t, region); };
-  // TetGen has the nodes of the edges 23 03 01 12 13 02.
+  // TetGen orders the nodes by the edges 23 03 01 12 13 02.
   const auto add_tet10 = [&](const std::array<Index, 10>& n, int region) {
     add_second_order(mesh, Tetrahedron{n[0], n[1], n[2], n[3]}, {n[6], n[7], n[9], n[5], n[8], n[4]}, region);
   };
@@ -109,8 +109,7 @@ MeshData read_tetgen_volume(const Source& source) {
   return mesh;
 }
 
-// Nodes on edges as TetGen has them: behind the corners, those of a tetrahedron on its edges 23 03 01 12 13
-// 02.
+// Nodes on edges are in TetGen's order: after the corners, for a tetrahedron by the edges 23 03 01 12 13 02.
 void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch* watch) {
   AtomicWriter node(with_extension(path, ".node"), watch), ele(with_extension(path, ".ele"), watch),
       face(with_extension(path, ".face"), watch), edge(with_extension(path, ".edge"), watch);
@@ -135,7 +134,7 @@ void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch
   write_lines(ele, mid.empty() ? " 4 1" : " 10 1", volume.tetrahedra, of_tets, volume.regions);
   write_lines(face, " 1", volume.facets, mid.facets, volume.facet_markers);
   write_lines(edge, " 1", volume.segments, of_segments, volume.segment_markers);
-  // All are complete before any gets its name, so that old and new files do not mix on a full disk.
+  // All files are completed before any gets its name, so that a full disk does not mix old and new ones.
   for (AtomicWriter* file : {&node, &ele, &face, &edge}) file->finish();
   for (AtomicWriter* file : {&node, &ele, &face, &edge}) file->commit();
 }

@@ -1,4 +1,4 @@
-// Files as TetGen writes them (manual, section 5.2): which it writes is up to its switches.
+// Writes files as TetGen does (manual, section 5.2); the switches decide which ones.
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
@@ -16,7 +16,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
-// TetGen's order of the mid-edge nodes of a tetrahedron, as places in ours: its edges are 23 03 01 12 13 02.
+// TetGen's order of the mid-edge nodes of a tetrahedron, as positions in ours: its edges are 23 03 01 12 13
+// 02.
 constexpr std::array<std::size_t, 6> kTetgenOrder{5, 3, 0, 1, 4, 2};
 constexpr int kMarkerOfUnmarked = 1;
 
@@ -36,7 +37,7 @@ void require_fit(const Volume& volume) {
         "a volume with regions, markers or mid-edge nodes of another number than their entities");
 }
 
-/// Writes one of the files; they all have the same line at their end.
+/// Writes one of the files; all have the same last line.
 class Writer {
  public:
   Writer(const Path& name, const Volume& volume, const TetgenFiles& files)
@@ -53,7 +54,7 @@ class Writer {
     if (files_.edges) write_edges(open(".edge"));
     if (files_.neighbours) write_neighbours(open(".neigh"));
     if (files_.surface) write_surface_file(open(".smesh"));
-    // All are complete before any gets its name, so that old and new files do not mix on a full disk.
+    // All files are completed before any gets its name, so that a full disk does not mix old and new ones.
     for (const auto& file : open_) {
       if (!files_.comment.empty()) *file << "# " << files_.comment << '\n';
       file->finish();
@@ -77,7 +78,7 @@ class Writer {
     return t == no_entity ? -1 : static_cast<std::int64_t>(number(t));
   }
 
-  // Each edge of the tetrahedra, a tetrahedron at it, and its node.
+  // Numbers the edges of the tetrahedra; finds a tetrahedron at each, and its node.
   void number_edges() {
     const MidNodes& mid = volume_.mid_nodes;
     for (std::size_t t = 0; t < volume_.tetrahedra.size(); ++t) {
@@ -91,7 +92,7 @@ class Writer {
       }
     }
   }
-  /// The mid-edge node, behind a space; nothing in a mesh of first order.
+  /// Writes a space and the mid-edge node; nothing in a mesh of first order.
   void write_node_of(io::AtomicWriter& out, Index a, Index b) const {
     if (node_of_edge_.empty()) return;
     const Index edge = edges_.find(a, b);
@@ -141,7 +142,7 @@ class Writer {
     return volume_.facet_markers.empty() ? kMarkerOfUnmarked : volume_.facet_markers[f];
   }
 
-  // The tetrahedra on both sides are found from the faces, since facets do not know them.
+  // Facets do not know their tetrahedra, so these are found from the faces.
   void write_faces(io::AtomicWriter& out) {
     const bool from_faces = files_.all_faces || files_.adjacent;
     const char* const columns = files_.markers ? "  1\n" : "  0\n";
@@ -177,7 +178,7 @@ class Writer {
     return sides + shared / 2;
   }
 
-  // The segments, then the sides of facets that are none; with all edges the rest.
+  // Writes the segments, then the sides of facets that are not segments; with all edges, the rest.
   void write_edges(io::AtomicWriter& out) {
     EdgeNumbers lines;
     std::vector<int> markers;

@@ -1,6 +1,6 @@
-// Reads numbers and words from a text that is in memory, and knows the line of each.
+// Reads numbers and words, with their lines, from a text in memory.
 //
-// Lines are counted only when an error needs one, so that reading pays nothing for them.
+// Lines are counted only for errors, so that reading does not pay for them.
 #include "io/text_reader.h"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ double TextReader::real(std::string_view what) {
   const char* const end = begin + source_.bytes.size();
   double value = 0;
   auto result = parse_real(begin + position_, end, value);
-  std::string number;  // where it has to be spelled otherwise
+  std::string number;  // with another spelling, if necessary
   if (result.ptr != end && (*result.ptr == 'D' || *result.ptr == 'd')) {  // Fortran's exponent, 1.5D+3
     number = source_.bytes.substr(position_, word_end(position_) - position_);
     number[static_cast<std::size_t>(result.ptr - begin) - position_] = 'e';
@@ -174,7 +174,7 @@ std::size_t TextReader::count(std::string_view what, std::size_t bytes_each) {
   const std::int64_t value = integer(what);
   if (value < 0) fail(std::string(what) + " is negative: " + std::to_string(value));
   const std::size_t left = source_.bytes.size() - position_;
-  // The last item needs no separator behind it.
+  // The last item needs no separator.
   if (static_cast<std::uint64_t>(value) > (left + 1) / bytes_each)
     fail(std::string(what) + " is " + std::to_string(value) + ", but only " + std::to_string(left) +
          " bytes follow; the file is truncated or damaged");

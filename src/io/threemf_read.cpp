@@ -1,5 +1,5 @@
-// 3MF (3MF Consortium, Core Specification 1.3): the items of the build, placed, with the parts in other files
-// of the package that the production extension (1.1.2) allows. Coordinates stay in the unit of the file.
+// 3MF (3MF Consortium, Core Specification 1.3): the placed items of the build, with parts in other files of
+// the package as the production extension (1.1.2) allows. Coordinates keep the unit of the file.
 #include <algorithm>
 #include <set>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kModelRelation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 
-/// Another object, placed: a component of an object, or an item of the build.
+/// A placed reference to another object: a component of an object, or an item of the build.
 struct Use {
   std::string part;  ///< the file of the package that has it
   std::uint64_t object = 0;
@@ -31,13 +31,12 @@ struct Object {
 
 using Key = std::pair<std::string, std::uint64_t>;  ///< part and number
 
-/// The name of a tag or an attribute without the prefix of its namespace.
+/// A tag or attribute name without its namespace prefix.
 std::string_view local(std::string_view name) {
   return name.substr(name.rfind(':') == std::string_view::npos ? 0 : name.rfind(':') + 1);
 }
 
-/// What a surface has no place for: elements of the file, and the paint of slicers, which stands in
-/// attributes of triangles.
+/// What a surface cannot hold: elements of the file, and the paint of slicers in attributes of triangles.
 struct LeftOut {
   std::string_view element, many, one;
 };
@@ -53,7 +52,7 @@ constexpr LeftOut kLeftOut[] = {
     {"texture2d", "textures", "texture"},
 };
 
-/// What one file of the package holds.
+/// The contents of one file of the package.
 class Model {
  public:
   Model(const Source& source, std::string part, std::map<Key, Object>& objects)
@@ -70,9 +69,9 @@ class Model {
   }
 
   [[nodiscard]] const std::vector<Use>& items() const { return items_; }
-  /// Other parts that components and items name.
+  /// Other parts named by components and items.
   [[nodiscard]] const std::set<std::string>& parts() const { return parts_; }
-  /// Elements that say more of the shape than triangles do, or of its looks.
+  /// Elements that describe more than triangles: of the shape or its appearance.
   [[nodiscard]] const std::map<std::string_view, std::size_t>& left_out() const { return left_out_; }
 
  private:
@@ -143,8 +142,7 @@ class Model {
       ++left_out_[kPaint];
   }
 
-  /// The number, from 1, that a material of a group has in a solid; 0 where the group is of colours or the
-  /// like.
+  /// The number, from 1, of a group's material in a solid; 0 if the group has colours or the like.
   std::size_t material_of(const std::string& group, const std::string& index, Solid& solid) {
     const auto found = material_groups_.find(group);
     if (found == material_groups_.end()) return 0;
@@ -205,7 +203,7 @@ class Package {
   }
 
  private:
-  /// Names and kinds of volumes, which count as materials of their object.
+  /// Takes names and kinds of volumes, which count as materials of their object.
   void take_slicer_volumes() {
     const ZipArchive::Entry* const entry = archive_.find(kSlicerVolumes);
     if (entry == nullptr) return;
@@ -216,8 +214,8 @@ class Package {
         divide(found->second.solid, told);
   }
 
-  /// Where the volumes do not cover the triangles once, in order, as after a change by another program, they
-  /// say nothing.
+  /// Volumes that do not cover the triangles once, in order, as after a change by another program, are
+  /// ignored.
   void divide(Solid& solid, const SlicerObject& told) {
     std::uint64_t next = 0;
     for (const SlicerVolume& volume : told.volumes) {
@@ -258,7 +256,7 @@ class Package {
     vertices = std::move(kept);
   }
 
-  /// The root's part, which the package's relations name.
+  /// The root part, named by the package's relations.
   std::string root_part() const {
     if (const ZipArchive::Entry* relations = archive_.find("_rels/.rels")) {
       const std::string text = archive_.unpacked(*relations);
@@ -272,7 +270,7 @@ class Package {
     throw FileError(source_.path, "", "the archive holds no 3MF model");
   }
 
-  /// All parts that are named; the items of the first.
+  /// Reads all named parts; returns the items of the root.
   std::vector<Use> read_models() {
     std::vector<Use> items;
     std::vector<std::string> waiting{root_part()};
@@ -298,7 +296,7 @@ class Package {
     return items;
   }
 
-  /// A file without a build shows what it holds.
+  /// Without a build, all objects that no other object uses are the items.
   std::vector<Use> what_no_object_uses() {
     for (const auto& [key, object] : objects_)
       for (const Use& use : object.components)

@@ -1,6 +1,6 @@
 // Reads I-DEAS universal files: nodes (2411, 781, 15), elements (2412) and permanent groups (2467, 2477 and
-// their older forms). A group is a region or a marker; elements of a kind that has no groups keep the number
-// of their physical property.
+// older forms). A group is a region or a marker; if a kind of element has no groups, the number of its
+// physical property is used.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -54,7 +54,7 @@ class UnvReader {
     line_ = {};
     return false;
   }
-  /// The next line of a dataset; whether it is not its end.
+  /// Reads the next line of a dataset; returns false at its end.
   bool next_in_dataset() {
     if (!next()) text_.fail_truncated("-1, which ends a dataset,");
     return line_ != "-1";
@@ -85,7 +85,7 @@ class UnvReader {
       case 2435:
         return read_groups();
       default:
-        // Units, headers and coordinate systems say nothing about the mesh.
+        // Units, headers and coordinate systems do not affect the mesh.
         if (number != 151 && number != 164 && number != 2420) ++skipped_;
         while (next_in_dataset()) {
         }
@@ -103,7 +103,7 @@ class UnvReader {
     if (const auto twice = nodes_.finish()) fail_twice("node", *twice);
   }
 
-  // Number, two coordinate systems and a colour, then the coordinates.
+  // Reads a number, two coordinate systems and a colour, then the coordinates.
   void read_nodes_of_one_line() {
     while (next_in_dataset()) {
       const std::vector<std::string_view> fields = words();
@@ -179,7 +179,7 @@ class UnvReader {
         dimension = 3;
         add_cell(mesh_, n, n.size(), 0);
         break;
-      case 113:  // a ring with the nodes on its edges, those on the edges across, the other ring
+      case 113:  // a triangle with mid-edge nodes, the nodes between, the other triangle
         has(15);
         dimension = 3;
         add_cell(mesh_, in_order(n, {0, 2, 4, 9, 11, 13, 1, 3, 5, 6, 7, 8, 10, 12, 14}), 6, 0);
@@ -247,8 +247,8 @@ class UnvReader {
                          static_cast<Index>(after[dimension] - before[dimension]), property});
   }
 
-  // Groups of one name in a dataset are one, as where tetrahedra and triangles are both called so. The same
-  // group may stand in another dataset, with some of its elements.
+  // Groups with one name in a dataset are merged, for instance if tetrahedra and triangles share it. Another
+  // dataset may repeat a group with some of its elements.
   void read_groups() {
     std::map<std::string, Group> here;
     while (next_in_dataset()) {
@@ -308,7 +308,7 @@ class UnvReader {
       if (alike && first > 0 && of_property[first] == part.elements.size()) part.property = first;
       parts.push_back(std::move(part));
     }
-    // Of groups that overlap the smaller one counts; those that have a property name it first.
+    // Where groups overlap, the smaller one counts; groups with a property come first.
     std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
       if (a.property.has_value() != b.property.has_value()) return a.property.has_value();
       return a.elements.size() > b.elements.size();

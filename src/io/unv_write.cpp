@@ -1,6 +1,6 @@
 // Writes I-DEAS universal files (SDRC, "Universal file datasets": 2411 nodes, 2412 elements, 2467 and 2477
-// permanent groups). Groups stand in both datasets, since OpenFOAM reads the one and Gmsh the other; but
-// facets inside only in the second, since OpenFOAM's ideasUnvToFoam makes broken cell zones of them.
+// permanent groups). Groups are in both datasets, because OpenFOAM reads the one and Gmsh the other; inner
+// facets are only in the second, because OpenFOAM's ideasUnvToFoam makes broken cell zones of them.
 #include <array>
 #include <charconv>
 #include <set>
@@ -13,10 +13,10 @@ namespace holdfast::io {
 namespace {
 
 constexpr NameRule kNames{40, "_-."};
-/// Nine digits leave a blank in a column of ten, which readers of words need.
+/// Nine digits leave a blank in a column of ten, for readers that split at blanks.
 constexpr IdRule kIds{true, 999999999};
 
-/// The number's end in a column of ten characters.
+/// Writes a number right-aligned in a column of ten characters.
 void column(AtomicWriter& out, std::int64_t value) {
   char digits[24];
   const auto result = std::to_chars(digits, digits + sizeof digits, value);
@@ -25,7 +25,7 @@ void column(AtomicWriter& out, std::int64_t value) {
   out << std::string_view(digits, size);
 }
 
-/// 17 figures in a column of 25, with Fortran's exponent of double precision.
+/// Writes 17 digits in a column of 25, with Fortran's double-precision exponent.
 void real_column(AtomicWriter& out, double value) {
   char digits[40];
   const auto result = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16);
@@ -43,7 +43,8 @@ void begin(AtomicWriter& out, int dataset) {
 }
 void end(AtomicWriter& out) { out << "    -1\n"; }
 
-/// Nodes round each edge with the one in its middle, then the edges to the last corner: I-DEAS's order.
+/// I-DEAS's order: corners and mid-edge nodes alternate round a face, then come the nodes on the edges to the
+/// last corner, then that corner.
 Nodes parabolic(const Nodes& nodes) {
   if (nodes.count == 10) {
     const auto& n = nodes.of;
@@ -89,7 +90,7 @@ class UnvWriter {
     end(out_);
   }
 
-  /// The id is the physical property. There is no material, of which Gmsh would make groups, too.
+  /// The id is the physical property. The material is left empty, because Gmsh would make groups of it, too.
   void element(int type, int id, const Nodes& nodes) {
     beat(out_.watch());
     for (const std::int64_t value : {++number_, std::int64_t{type}, std::int64_t{id}, std::int64_t{0},
@@ -123,7 +124,7 @@ class UnvWriter {
     end(out_);
   }
 
-  /// The id, which Gmsh takes the number for, unless another group has it.
+  /// The group's number: its id, which Gmsh reads from it, unless another group has that.
   static std::int64_t number_of_group(std::set<int>& numbers, int id) {
     while (!numbers.insert(id).second) id = id % 1000000 + 1;
     return id;

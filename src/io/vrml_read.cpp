@@ -1,5 +1,5 @@
-// VRML 1.0 and 2.0 (VRML97, ISO/IEC 14772-1): sets of indexed faces, each as often and where the scene places
-// it. The axes and the unit of the file stay.
+// VRML 1.0 and 2.0 (VRML97, ISO/IEC 14772-1): indexed face sets, placed by the scene, possibly several times.
+// Axes and unit are those of the file.
 #include "io/vrml_read.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@
 namespace holdfast::io {
 namespace {
 
-/// Shapes that are left out.
+/// Shapes that are skipped.
 constexpr std::string_view kShapes[] = {"AsciiText",      "Box",       "Cone",   "Cube", "Cylinder",
                                         "ElevationGrid",  "Extrusion", "Sphere", "Text", "GeoElevationGrid",
                                         "IndexedLineSet", "PointSet"};
 
-/// Nodes of VRML97 that stand where shapes do, and are none.
+/// VRML97 nodes that stand in place of shapes but are none.
 constexpr std::string_view kOthers[] = {"AudioClip",
                                         "Background",
                                         "ColorInterpolator",
@@ -50,7 +50,7 @@ constexpr std::string_view kOthers[] = {"AudioClip",
                                         "VisibilitySensor",
                                         "WorldInfo"};
 
-/// What nodes of version 1.0 leave to those that follow them.
+/// The state that nodes of version 1.0 pass on to those that follow.
 struct State {
   Placement placement;
   const VrmlNode* coordinates = nullptr;
@@ -78,7 +78,7 @@ class VrmlReader {
   }
 
  private:
-  // A node may be used many times, and what it holds, too.
+  // A node may be used many times, including its contents.
   static constexpr std::size_t kDeepest = 256, kMostVisits = std::size_t{1} << 21;
 
   void visit(const VrmlNode& node, State& state, const std::string& name_around) {
@@ -86,7 +86,7 @@ class VrmlReader {
     if (++visits_ > kMostVisits)
       scene_.fail(node, "nodes are used more than " + std::to_string(kMostVisits) + " times; that is a trap");
     step(source_.watch);
-    // Of version 2.0 a shape, and what is round it, says more than its geometry.
+    // In version 2.0, the shape and the nodes around it have better names than the geometry.
     const bool is_geometry = !scene_.is_first_version() && node.type == "IndexedFaceSet";
     const bool around = node.name.empty() || (is_geometry && !name_around.empty());
     const std::string& name = around ? name_around : node.name;
@@ -173,7 +173,7 @@ class VrmlReader {
   }
 
   enum Choice { none, one, every };
-  /// The child of a switch that is shown.
+  /// The child that a switch selects.
   static std::pair<std::size_t, Choice> choice(const VrmlField& which, std::size_t count) {
     const double number = which.numbers.empty() ? -1 : which.numbers[0];
     if (number == -3) return {0, every};
@@ -204,7 +204,7 @@ class VrmlReader {
     return {v[0], v[1], v[2]};
   }
 
-  /// About an axis, by an angle in radians.
+  /// A rotation about an axis by an angle in radians.
   [[nodiscard]] Placement turn(const VrmlNode& node, std::string_view field, double sense = 1) const {
     const std::vector<double> v = numbers(node, field, {0, 0, 1, 0});
     const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -226,7 +226,7 @@ class VrmlReader {
         .after(Placement::moved_by({-centre[0], -centre[1], -centre[2]}));
   }
 
-  /// Rows, the last of which moves.
+  /// A matrix of rows; the last one is the translation.
   [[nodiscard]] Placement matrix(const VrmlNode& node) const {
     const std::vector<double> v = numbers(node, "matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     Placement result;

@@ -15,7 +15,7 @@ bool is_sign(char c) {
   return c == '{' || c == '}' || c == '[' || c == ']' || c == '(' || c == ')' || c == '|';
 }
 
-// Commas are blanks in VRML.
+// VRML treats commas as blanks.
 bool is_blank(char c) { return static_cast<unsigned char>(c) <= ' ' || c == ','; }
 
 }  // namespace
@@ -121,7 +121,7 @@ void VrmlScene::skip_to_end() {
   }
 }
 
-/// Of what is no node: kinds of the file's own, which are not read, and routes of events.
+/// Skips a statement that is no node: prototypes, which are not read, and event routes.
 bool VrmlScene::skip_statement(std::string_view word) {
   if (word == "ROUTE") {
     for (const char* what : {"what a route begins with", "TO", "what a route leads to"})
@@ -148,7 +148,7 @@ bool VrmlScene::begins_node(const Token& token) {
   return token.text == "DEF" || token.text == "USE" || token.text == "NULL" || peek().text == "{";
 }
 
-/// Nothing for NULL. `first` is DEF, USE, NULL or a type.
+/// Returns null for NULL. `first` is DEF, USE, NULL or a type.
 const VrmlNode* VrmlScene::read_node(const Token& first) {
   if (first.text == "NULL") return nullptr;
   if (first.text == "USE") {

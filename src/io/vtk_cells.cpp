@@ -1,4 +1,4 @@
-// Turns the cells of the VTK formats into facets, segments and tetrahedra.
+// Converts the cells of VTK formats to facets, segments and tetrahedra.
 #include "io/vtk_cells.h"
 
 #include <span>
@@ -54,7 +54,7 @@ class CellReader {
     mesh_.leave_out(grid_.other_arrays.size(), "arrays (" + names + ")", "array (" + names + ")");
   }
 
-  /// A cell that is a vertex gives it a marker where no array of the points does.
+  /// A vertex cell sets the vertex marker, unless an array of the points does.
   void mark_vertices(int marker) {
     if (marker == 0) return;
     grid_.point_markers.resize(mesh_.vertices.size(), 0);
@@ -120,7 +120,7 @@ class CellReader {
         return add_strip(mesh_, corners_, marker);
       case VtkCell::pixel:
         require_corners(4);
-        std::swap(corners_[2], corners_[3]);  // a pixel's corners go row by row, not round
+        std::swap(corners_[2], corners_[3]);  // a pixel's corners are in rows, not counterclockwise
         return add_polygon(mesh_, corners_, marker, [&](const std::string& reason) { fail(reason); });
       case VtkCell::quad:
         require_corners(4);
@@ -134,7 +134,7 @@ class CellReader {
                                      tag_of(grid_.regions, cell_));
       case VtkCell::voxel:
         require_corners(8);
-        std::swap(corners_[2], corners_[3]);  // row by row, not round
+        std::swap(corners_[2], corners_[3]);  // in rows, not counterclockwise
         std::swap(corners_[6], corners_[7]);
         return add_cell_of(8);
       case VtkCell::quadratic_edge:
@@ -155,7 +155,8 @@ class CellReader {
     }
   }
 
-  /// Cells of second order that have no place here, and those of any order: their corners come first.
+  /// Reads cells of arbitrary order, and unsupported ones of second order, by their corners, which come
+  /// first.
   void add_by_corners(int marker) {
     const auto corners = [&](std::size_t count) {
       if (corners_.size() < count) fail("has fewer than " + counted(count, "corner"));

@@ -1,5 +1,5 @@
-// Reads legacy VTK files, ASCII and binary, versions 1 to 5 (VTK User's Guide, "VTK File Formats";
-// version 5.1 lists offsets and connectivity apart). Unstructured grids and polygonal data.
+// Reads legacy VTK files, ASCII and binary, versions 1 to 5 (VTK User's Guide, "VTK File Formats"; version
+// 5.1 separates offsets and connectivity): unstructured grids and polygonal data.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -48,7 +48,7 @@ VtkType type_of(const TextReader& text, std::string_view name) {
   text.fail("values of type " + in_quotes(name) + " are not read");
 }
 
-/// A word whose %XX are bytes again.
+/// Decodes the %XX of a word.
 std::string decoded(std::string_view word) {
   std::string result;
   for (std::size_t i = 0; i < word.size(); ++i) {
@@ -127,7 +127,7 @@ class VtkReader {
     }
   }
 
-  /// The number of values of arrays that may not follow, so that the file need not hold them.
+  /// The number of tuples of arrays that may be absent, so it is not checked against the file's size.
   std::uint64_t tuples() {
     const std::int64_t value = text_.integer("the number of values");
     if (value < 0 || value > std::numeric_limits<Index>::max())
@@ -135,7 +135,7 @@ class VtkReader {
     return static_cast<std::uint64_t>(value);
   }
 
-  /// `count` values of a type as T; the data starts in the next line if it is binary.
+  /// Reads `count` values of a type as T; binary data starts in the next line.
   template <typename T>
   std::vector<T> values(VtkType type, std::uint64_t count) {
     const std::size_t bytes_each = binary_ ? size_of(type) : 2;
@@ -167,7 +167,7 @@ class VtkReader {
     grid_.points = points_of(values<double>(type, 3 * count));
   }
 
-  /// Appends the cells of a section; returns how many.
+  /// Appends the cells of a section; returns their number.
   std::size_t read_cells() {
     const std::size_t count = text_.count("the number of cells", 1);
     const std::size_t numbers = text_.count("the size of the cells", 1);
@@ -221,7 +221,7 @@ class VtkReader {
     part.types.insert(part.types.end(), count, static_cast<std::uint8_t>(type));
   }
 
-  /// Reads an array behind its name, and keeps it if it is the cells' regions or markers.
+  /// Reads an array after its name; keeps it if it has the cells' regions or markers.
   void read_array(const std::string& name, VtkType type, std::uint64_t count) {
     if (of_cells_ && name == "region")
       grid_.regions = values<int>(type, count);
@@ -233,7 +233,7 @@ class VtkReader {
       skip_array(name, type, count);
   }
 
-  /// Ids by another name, where there are none by ours.
+  /// Uses ids under a foreign name if there are none under ours.
   void take_other_ids(std::vector<int>& ids, std::span<const std::string_view> names) {
     for (const std::string_view name : names) {
       if (!ids.empty()) return;
@@ -279,7 +279,7 @@ class VtkReader {
     }
   }
 
-  /// Whether an array, in front of its type, is of strings or bits, which is left out.
+  /// Skips an array of strings or bits, before whose type the text stands; returns false for other types.
   bool skip_strings_or_bits(const std::string& name, std::uint64_t count) {
     const std::size_t start = text_.position();
     const std::string type = lower(text_.word("a type"));
@@ -299,8 +299,8 @@ class VtkReader {
     return true;
   }
 
-  /// The upper two bits of the first byte tell in how many bytes the length stands: 3 in one, 2 in two, 1 in
-  /// four, 0 in eight.
+  /// The upper two bits of the first byte give the size of the length: 3 for one byte, 2 for two, 1 for four,
+  /// 0 for eight.
   void skip_counted_string() {
     const std::string_view bytes = text_.remaining();
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
@@ -312,7 +312,7 @@ class VtkReader {
     text_.seek(text_.position() + width + length);
   }
 
-  /// A block that ends with an empty line.
+  /// Skips a block that ends with an empty line.
   void skip_metadata() {
     text_.skip_line();
     while (!text_.remaining().empty() && !text_.at_line_end()) text_.skip_line();
@@ -356,7 +356,7 @@ class VtkReader {
     if (lower(text_.word("LOOKUP_TABLE")) == "lookup_table")
       static_cast<void>(text_.word_on_line());
     else
-      text_.seek(start);  // old files leave the line out
+      text_.seek(start);  // old files omit the line
     read_array(name, type, components * tuples_);
   }
 

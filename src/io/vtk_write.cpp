@@ -5,7 +5,7 @@
 namespace holdfast::io {
 namespace {
 
-/// A name as a word: VTK writes what is no graphic ASCII character as %XX.
+/// A name as a word: as in VTK, %XX replaces characters that are not graphic ASCII.
 std::string encoded(std::string_view name) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string result;
@@ -47,7 +47,7 @@ void visit_cells(const Volume& volume, Visit&& visit) {
           tag_of(volume.segment_markers, i));
 }
 
-/// An array of integers by cell.
+/// Writes an array of integers by cell.
 template <typename Value>
 void write_array(AtomicWriter& out, const Volume& volume, std::string_view name, Value&& value) {
   out << "SCALARS " << name << " int 1\nLOOKUP_TABLE default\n";
@@ -82,7 +82,7 @@ void write_vtk(AtomicWriter& out, const Volume& volume) {
   visit_cells(volume,
               [&](VtkCell type, const Nodes&, int, int, int) { out << static_cast<int>(type) << '\n'; });
   out << "CELL_DATA " << cells << '\n';
-  // The region first: it is what viewers colour by, and what meshio keeps where it keeps one array.
+  // The region comes first: viewers colour by the first array, and meshio keeps it if it keeps only one.
   write_array(out, volume, "region", [](int, int region, int) { return region; });
   write_array(out, volume, "marker", [](int, int, int marker) { return marker; });
   write_array(out, volume, "kind", [](int kind, int, int) { return kind; });

@@ -21,7 +21,7 @@ bool is_scalar_integer(const DataArray& array) {
   return is_integer(array) && (components.empty() || components == "1");
 }
 
-/// The cells' array of this name, or else the first with another one that holds integers; or "".
+/// The cells' array `own`, or else the first integer array of `others`; empty if there is none.
 std::string array_of(const VtuFile& file, const std::string& own, std::span<const std::string_view> others) {
   if (file.find("CellData/" + own)) return "CellData/" + own;
   for (const std::string_view other : others) {
@@ -38,7 +38,7 @@ std::vector<Point> read_points(const VtuFile& file) {
   return points_of(file.values<double>("Points/", 3 * file.points()));
 }
 
-/// Names of ids, and whether there should be a second file.
+/// Reads names of ids, and whether there should be a second file.
 void read_fields(const VtuFile& file, VtuBlock& block, VtkGrid& grid) {
   VtkNames names;
   for (const auto& [path, array] : file.arrays()) {
@@ -52,7 +52,7 @@ void read_fields(const VtuFile& file, VtuBlock& block, VtkGrid& grid) {
   grid.names = names.take();
 }
 
-/// Whether an array tells of which whole a file is a piece.
+/// Whether an array describes the file as a piece of a whole.
 bool is_of_pieces(const std::string& name) {
   const auto is_one_of = [&](const auto& names) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -80,7 +80,7 @@ void read_tags(const VtuFile& file, VtuGhosts ghosts, VtuBlock& block, VtkGrid& 
   read_fields(file, block, grid);
 }
 
-/// How many corners cells with these ends have; that these do not descend is checked later.
+/// The number of corners of cells with these ends; whether the ends ascend is checked later.
 std::uint64_t last_end(const std::vector<std::int64_t>& ends) {
   return ends.empty() || ends.back() < 0 ? 0 : static_cast<std::uint64_t>(ends.back());
 }
@@ -100,7 +100,7 @@ void read_polydata(const VtuFile& file, VtkGrid& grid) {
                                    {"Lines", VtkCell::poly_line},
                                    {"Polys", VtkCell::polygon},
                                    {"Strips", VtkCell::triangle_strip}};
-  // In the order in which cell data lists them.
+  // In the order of the cell data.
   for (const Section& section : kSections) {
     const std::string name = section.name;
     if (!file.find(name + "/offsets")) continue;
@@ -115,7 +115,7 @@ void read_polydata(const VtuFile& file, VtkGrid& grid) {
   }
 }
 
-/// The first of these arrays that holds integers, one each; empty if there is none.
+/// The first of these arrays that has one integer per entry; empty if there is none.
 std::vector<std::int64_t> ids_of(const VtuFile& file, const std::string& section, std::uint64_t count,
                                  std::span<const char* const> names) {
   for (const std::string name : names)
@@ -126,8 +126,7 @@ std::vector<std::int64_t> ids_of(const VtuFile& file, const std::string& section
 
 constexpr const char* kGhosts = "CellData/vtkGhostType";
 
-/// Leaves out the cells that are another piece's, and says of each cell that it was in the file whether it
-/// stays.
+/// Drops the cells of other pieces, and returns for each cell of the file whether it stays.
 std::vector<std::uint8_t> leave_out_ghosts(const VtuFile& file, VtkGrid& grid) {
   constexpr std::uint8_t kDuplicateCell = 1;
   std::vector<std::uint8_t> stays(grid.types.size(), 1);

@@ -11,13 +11,13 @@ namespace {
 std::string deflated(std::string_view block) {
   std::string room(compressBound(kVtuBlock), '\0');
   uLongf size = room.size();
-  // Level 1: half the time of the default for 5 % more bytes. It cannot fail: the room suffices.
+  // Level 1 takes half the time of the default for 5 % more bytes. It cannot fail, because the room suffices.
   compress2(reinterpret_cast<Bytef*>(room.data()), &size, reinterpret_cast<const Bytef*>(block.data()),
             block.size(), 1);
   return room.substr(0, size);
 }
 
-// Always as long, and without zeros or blanks in the value: meshio looks for its text.
+// Of constant length, with no zeros or blanks in the value, because meshio searches for its text.
 std::string in_quotes_padded(std::uint64_t offset) {
   constexpr std::size_t kLongest = 20;  // digits
   const std::string digits = std::to_string(offset);
@@ -63,7 +63,7 @@ void VtuAppended::begin() {
   begin_array();
 }
 
-// And those after it, as long as they are empty.
+// Also begins the following arrays while they are empty.
 void VtuAppended::begin_array() {
   for (; array_ < arrays_.size(); ++array_) {
     const Array& array = arrays_[array_];

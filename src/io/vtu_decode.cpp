@@ -1,4 +1,4 @@
-// Decodes the arrays of VTK's XML files: base64, size headers, blocks packed by zlib, LZ4 or LZMA.
+// Decodes the arrays of VTK's XML files: base64, size headers, blocks compressed by zlib, LZ4 or LZMA.
 #include "io/vtu_decode.h"
 
 #include <zlib.h>
@@ -17,14 +17,14 @@
 namespace holdfast::io {
 namespace {
 
-/// The bytes of an array, whose encoding is undone as they are asked for.
+/// The bytes of an array, decoded on demand.
 class Stream {
  public:
   Stream(const Source& source, bool base64, std::size_t position)
       : source_(source), base64_(base64), position_(position) {}
 
-  /// The next `count` bytes. Whatever is left of a base64 group stays for the next call, unless
-  /// padding ends the group: a header may be encoded apart from its data.
+  /// The next bytes. The rest of a base64 group is kept for the next call, unless padding ends the group: a
+  /// header may be encoded separately from its data.
   std::string take(std::uint64_t wanted) {
     if (wanted > available()) fail("the data ends too early; the file is truncated");
     const auto count = static_cast<std::size_t>(wanted);
@@ -40,16 +40,16 @@ class Stream {
     return bytes;
   }
 
-  /// A bound on the bytes that can still be taken.
+  /// An upper bound on the bytes that can still be taken.
   [[nodiscard]] std::uint64_t available() const {
     const std::uint64_t left = source_.bytes.size() - position_;
     return base64_ ? pending_.size() + left / 4 * 3 : left;
   }
 
-  /// Drops what is left of the current group: what follows is encoded apart.
+  /// Drops the rest of the current group: what follows is encoded separately.
   void drop_pending() { pending_.clear(); }
 
-  /// A block takes up to some milliseconds.
+  /// Called per block, which takes up to some milliseconds.
   void step() const { holdfast::io::step(source_.watch); }
 
   [[noreturn]] void fail(const std::string& reason) const {
@@ -80,10 +80,10 @@ class Stream {
   std::string pending_;
 };
 
-// At most so many bytes are packed in one (zlib, "Technical Details").
+// The largest compression ratio of deflate (zlib, "Technical Details").
 constexpr std::uint64_t kBestRatioOfDeflate = 1032;
 
-/// Appends what a block of zlib's holds; whether that is so many bytes.
+/// Appends the data of a zlib block; returns whether it has `size` bytes.
 bool append_deflated(std::string& bytes, std::string_view packed, std::size_t size) {
   const std::size_t start = bytes.size();
   bytes.resize(start + size);
@@ -158,7 +158,7 @@ class ArrayDecoder {
     const auto [best_ratio, append] = way_of(encoding_.compressor);
     const std::string packed = stream_.take(packed_size);
     if (size / best_ratio > packed_size) stream_.fail("a block of impossible size; the file is damaged");
-    if (size > result.max_size() - result.size()) throw std::bad_alloc();  // where sizes have 32 bits
+    if (size > result.max_size() - result.size()) throw std::bad_alloc();  // with sizes of 32 bits
     if (!append(result, packed, static_cast<std::size_t>(size)))
       stream_.fail("a block that cannot be decompressed; the file is damaged");
   }

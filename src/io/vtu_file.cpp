@@ -9,7 +9,7 @@
 
 namespace holdfast::io {
 
-/// What was met so far.
+/// The state of parsing.
 struct VtuFile::Seen {
   bool file = false, end = false;
   bool in_piece = false;
@@ -22,7 +22,7 @@ VtuFile::VtuFile(const Source& source) : source_(source), xml_(source) {
   while (const std::optional<XmlTag> tag = xml_.next()) {
     if (tag->name == "AppendedData") {
       read_appended(*tag);
-      seen.end = true;  // the arrays' own sizes tell whether their data is complete
+      seen.end = true;  // the arrays' own sizes show whether their data is complete
       break;
     }
     read_tag(*tag, seen);
@@ -41,7 +41,7 @@ void VtuFile::read_tag(const XmlTag& tag, Seen& seen) {
   else if (tag.name == "Piece")
     read_piece(tag, seen);
   else if (tag.name == "DataArray" && !tag.closing)
-    // The points' array may have any name.
+    // The array of points may have any name.
     (seen.in_piece ? pieces_.back().arrays : seen.common)
         .insert({seen.section + "/" + (seen.section == "Points" ? "" : tag.attribute("Name")),
                  DataArray{tag, xml_.position()}});
@@ -126,7 +126,7 @@ VtkType VtuFile::type_of(const DataArray& array) const {
   return found->second;
 }
 
-// The bytes of an array, which are unpacked only if they are as many as they must be.
+// The bytes of an array, which are decompressed only if their announced number is right.
 std::string VtuFile::decoded(const DataArray& array, bool base64, std::size_t position,
                              std::optional<std::uint64_t> count) const {
   const std::uint64_t bytes = announced_size(source_, encoding_, base64, position);

@@ -14,7 +14,7 @@ namespace {
 
 bool same(const Point& a, const Point& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// Numbers vertices in the order of their ids.
+/// Numbers vertices in the order of their global ids.
 void number_by_ids(std::vector<VtuPiece>& pieces, MeshData& whole) {
   struct Named {
     std::int64_t id;
@@ -46,7 +46,7 @@ void number_by_ids(std::vector<VtuPiece>& pieces, MeshData& whole) {
   }
 }
 
-/// A vertex at the place of one of an earlier piece is this; points of one piece stay apart.
+/// Merges vertices with those of earlier pieces at the same place; points of one piece stay distinct.
 void number_by_places(std::vector<VtuPiece>& pieces, MeshData& whole) {
   std::map<Point, Index> at;
   std::size_t joined = 0;
@@ -75,7 +75,7 @@ std::array<Index, N> ascending_corners(std::array<Index, N> corners, const std::
   return corners;
 }
 
-/// Keeps the entities that no earlier piece has.
+/// Adds the entities that no earlier piece has.
 template <std::size_t N>
 void keep_new(std::vector<std::array<Index, N>>& entities, Tags& markers, const std::vector<Index>& number,
               std::set<std::array<Index, N>>& earlier) {
@@ -95,7 +95,7 @@ void keep_new(std::vector<std::array<Index, N>>& entities, Tags& markers, const 
   markers = std::move(kept_markers);
 }
 
-/// Adds the tetrahedra of all pieces in the order of their ids, and takes them from the pieces.
+/// Moves the tetrahedra of all pieces to the whole, in the order of their ids.
 void add_tetrahedra_by_ids(std::vector<VtuPiece>& pieces, MeshData& whole) {
   struct Named {
     std::int64_t id;

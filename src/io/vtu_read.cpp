@@ -1,4 +1,4 @@
-// Reads VTK's XML files, .vtu and .vtp, with the surface beside a volume, and .vtm, the list of several
+// Reads VTK's XML files, .vtu and .vtp, with the surface beside a volume, and .vtm, a list of several
 // (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html).
 #include <algorithm>
 #include <cstring>
@@ -16,7 +16,7 @@
 namespace holdfast::io {
 namespace {
 
-/// Puts the values of a piece's points into those of the whole.
+/// Copies the values of a piece's points to those of the whole.
 void put(const PointArray& part, const std::vector<Index>& number, std::size_t points, PointArray& whole) {
   if (whole.values.empty()) {
     whole.components = part.components;
@@ -28,7 +28,7 @@ void put(const PointArray& part, const std::vector<Index>& number, std::size_t p
                 whole.values.begin() + static_cast<std::ptrdiff_t>(number[v]) * each);
 }
 
-/// Puts a surface in whose points know their indices in the volume.
+/// Adds a surface whose points have their indices in the volume.
 void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) {
   std::vector<Index> number;
   if (part.in_volume.size() != part.mesh.vertices.size())
@@ -45,7 +45,7 @@ void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) 
   append(mesh, std::move(part.mesh), number);
 }
 
-/// The mesh of a file of one piece or several, without what may be in another beside it.
+/// The mesh of a file of one or more pieces, without the file that may be beside it.
 struct WholeFile {
   VtuBlock block;
   PointArray array;  ///< the first of those that are asked for

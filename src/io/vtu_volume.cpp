@@ -1,6 +1,6 @@
-// Volumes as VTK's XML files: tetrahedra in one file and what bounds them in another beside it, since viewers
-// and solvers take cells of two dimensions in one grid badly; or both in one file; and the .vtm that names
-// the two as blocks.
+// Volumes as VTK's XML files: tetrahedra in one file and their boundary in another beside it, because viewers
+// and solvers do not handle two-dimensional cells in the same grid well; or both in one file; and a .vtm that
+// lists the two as blocks.
 #include <algorithm>
 #include <bit>
 #include <system_error>
@@ -53,13 +53,13 @@ std::vector<Point> nodes_of(const Volume& volume) {
   return points;
 }
 
-/// Tetrahedra, and with `all` what bounds them, with all vertices.
+/// Writes the tetrahedra and, with `all`, their boundary, with all vertices.
 void write_grid(AtomicWriter& out, const Volume& volume, const WriteOptions& options, bool all) {
   Cells cells;
   add_tetrahedra(cells, volume, out.watch());
   if (all) add_surface(cells, volume, out.watch());
   const std::vector<Point> points = nodes_of(volume);
-  // The region first: it is what viewers colour by, and what meshio keeps where it keeps one array.
+  // The region comes first: viewers colour by the first array, and meshio keeps it if it keeps only one.
   std::vector<VtuArray> cell_data{vtu_array("region", cells.regions)};
   if (all) {
     cell_data.push_back(vtu_array("marker", cells.markers));
@@ -78,11 +78,11 @@ void write_grid(AtomicWriter& out, const Volume& volume, const WriteOptions& opt
     arrays.point_data.push_back(vtu_array("marker", markers));
   }
   arrays.field_data = vtk_fields(volume.names);
-  if (!all) arrays.field_data[kSurfaceBeside] = {{1, -1}};  // of no dimension, so that it names nothing
+  if (!all) arrays.field_data[kSurfaceBeside] = {{1, -1}};  // names nothing, because it has no dimension
   write_vtu_arrays(out, arrays, options);
 }
 
-/// Facets and segments with their own points, which know their indices in the volume.
+/// Writes facets and segments with their own points, which have their indices in the volume.
 void write_surface_grid(AtomicWriter& out, const Volume& volume, const WriteOptions& options) {
   Cells cells;
   std::vector<Point> points;
@@ -100,7 +100,7 @@ void write_surface_grid(AtomicWriter& out, const Volume& volume, const WriteOpti
     points.push_back(node(volume, v));
     in_volume.push_back(static_cast<std::int64_t>(v));
   }
-  Volume surface;  // the same entities by these points
+  Volume surface;  // the same entities in these points
   const auto renumbered = [&](auto entities) {
     for (auto& entity : entities)
       for (Index& v : entity) v = number[v];
@@ -111,7 +111,7 @@ void write_surface_grid(AtomicWriter& out, const Volume& volume, const WriteOpti
   surface.facet_markers = volume.facet_markers;
   surface.segment_markers = volume.segment_markers;
   if (is_second_order(volume)) {
-    surface.mid_nodes.points.resize(1);  // what makes it one of second order
+    surface.mid_nodes.points.resize(1);  // marks it as second order
     surface.mid_nodes.facets = renumbered(volume.mid_nodes.facets);
     for (const Index v : volume.mid_nodes.segments) surface.mid_nodes.segments.push_back(number[v]);
   }
@@ -140,7 +140,7 @@ void write_files(const std::filesystem::path& path, const Volume& volume, const 
         << escaped(surface_beside(grid).filename().string()) << "\"/>\n</vtkMultiBlockDataSet>\n</VTKFile>\n";
     index->finish();
   }
-  // All are complete before any gets its name.
+  // All files are completed before any gets its name.
   for (AtomicWriter* file : {&volume_file, &surface_file}) file->finish();
   for (AtomicWriter* file : {&surface_file, &volume_file}) file->commit();
   if (index) index->commit();
@@ -164,7 +164,7 @@ bool can_have_a_file_beside(const std::filesystem::path& path) {
   if (descriptor_of(path)) return false;
   std::error_code error;
   const bool exists = std::filesystem::exists(path, error);
-  if (error) return false;  // such as a name that is too long, which the writer says
+  if (error) return false;  // for example a name that is too long, which the writer reports
   return !exists || std::filesystem::is_regular_file(path, error);
 }
 

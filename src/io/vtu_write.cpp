@@ -13,7 +13,7 @@
 namespace holdfast::io {
 namespace {
 
-/// One array as the appended section holds it: sizes, then the data.
+/// An array as in the appended section: sizes, then the data.
 std::string encoded(std::string_view data, bool compress, const Threads& threads) {
   std::string result;
   if (!compress) {
@@ -35,7 +35,7 @@ void write_vtu_arrays(AtomicWriter& out, const VtuArrays& arrays, const WriteOpt
   std::string data;
   const auto array = [&](const VtuArray& a) {
     out << "<DataArray type=\"" << a.type << "\" Name=\"" << a.name << '"';
-    // Left out for scalars: meshio would give their values a second dimension.
+    // Omitted for scalars, because meshio would give their values a second dimension.
     if (a.components != 1) out << " NumberOfComponents=\"" << std::uint64_t{a.components} << '"';
     out << " format=\"appended\" offset=\"" << std::uint64_t{data.size()} << "\"/>\n";
     data +=

@@ -25,7 +25,7 @@ std::string_view name_in(const XdmfItem& item) {
 
 XdmfFile::XdmfFile(const Source& source) : source_(source), xml_(source) { read_grids(); }
 
-// The text behind a tag; entities are left as they are, which numbers and names of arrays do not have.
+// The text after a tag; entities are not decoded, because numbers and names of arrays have none.
 std::string_view XdmfFile::text_behind() const {
   const std::size_t begin = xml_.position();
   return source_.bytes.substr(begin, std::min(source_.bytes.find('<', begin), source_.bytes.size()) - begin);
@@ -77,7 +77,7 @@ void XdmfFile::read_grids() {
   }
 }
 
-/// A name of an id, as meshio has them: <map key="inlet" dim="2">3</map>.
+/// Reads the name of an id in meshio's form: <map key="inlet" dim="2">3</map>.
 void XdmfFile::read_name(const XmlTag& tag) {
   const std::string key = tag.attribute("key");
   if (key == kSurfaceBeside) {
@@ -117,7 +117,7 @@ std::filesystem::path XdmfFile::path_of(const XdmfItem& item) const {
   return source_.path.parent_path() / unescaped(name);
 }
 
-/// Values of a raw file from the byte Seek on.
+/// Values of a raw file, from the byte Seek on.
 template <typename T>
 std::vector<T> XdmfFile::raw_values_of(const XdmfItem& item, std::uint64_t count) const {
   const std::string packed = lower(item.tag.attribute("Compression"));
@@ -141,7 +141,7 @@ std::vector<T> XdmfFile::raw_values_of(const XdmfItem& item, std::uint64_t count
                           [&](const std::string& reason) { xml_.fail(item.tag, reason); });
 }
 
-/// By NumberType, in XDMF 2 also DataType, and Precision: the bytes of a value.
+/// The type of a value from NumberType (also DataType in XDMF 2) and Precision.
 VtkType XdmfFile::raw_type_of(const XdmfItem& item) const {
   struct Known {
     std::string_view name, precision;

@@ -1,8 +1,8 @@
 // Writes pieces as one XDMF mesh with its arrays in HDF5, for DOLFINx: cells are ordered by part, so that
-// process k reads the rows of part k and keeps them. Beside what every .xdmf has, NAME.h5 holds
-//   part          of each cell
-//   ghost_offsets, ghosts   the parts that have cell i as a ghost: ghosts[ghost_offsets[i] : ghost_offsets[i
-//   + 1]] interfaces    rows of two parts and three points, of the faces between parts
+// process k reads and keeps the rows of part k. NAME.h5 has these arrays besides those of every .xdmf:
+//   part                    the part of each cell
+//   ghost_offsets, ghosts   cell i is a ghost of the parts ghosts[ghost_offsets[i] : ghost_offsets[i + 1]]
+//   interfaces              rows of two parts and three points, for the faces between parts
 #include <algorithm>
 #include <array>
 #include <map>
@@ -58,7 +58,7 @@ void add_own(Gathered& to, const MeshPiece& piece, Index k, Watch& watch) {
   to.names = volume.names;
 }
 
-/// Ghosts by the rows of the cells.
+/// Adds ghosts, by the rows of the cells.
 void add_ghosts(Gathered& to, std::vector<std::pair<std::int64_t, std::int32_t>>& ghosts) {
   std::sort(ghosts.begin(), ghosts.end());
   std::size_t next = 0;
@@ -71,7 +71,7 @@ void add_ghosts(Gathered& to, std::vector<std::pair<std::int64_t, std::int32_t>>
 
 Gathered gather(std::size_t parts, const PieceLoader& load, Watch& watch) {
   Gathered all;
-  std::vector<std::pair<std::uint64_t, std::int32_t>> ghosts;  // by the numbers of the whole
+  std::vector<std::pair<std::uint64_t, std::int32_t>> ghosts;  // by global number
   std::unordered_map<std::uint64_t, std::int64_t> row;         // of tetrahedra that are ghosts somewhere
   for (std::size_t k = 0; k < parts; ++k) {
     const MeshPiece piece = load(k);
@@ -124,7 +124,7 @@ void write_xdmf_pieces(const std::filesystem::path& path, std::size_t parts, con
                   {"Tetrahedron", "tetrahedra", cells, 4, {"region", "part"}}, all.names, true);
   write_xdmf_grid(surface_file, {surface_heavy_name, heavy_name, points},
                   {"Triangle", "triangles", facets, 3, {"marker"}}, all.names);
-  // All are complete before any gets its name.
+  // All files are completed before any gets its name.
   for (AtomicWriter* file : {&heavy, &surface_heavy, &surface_file, &volume_file}) file->finish();
   for (AtomicWriter* file : {&heavy, &surface_heavy, &surface_file, &volume_file}) file->commit();
 }

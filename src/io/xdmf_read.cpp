@@ -1,6 +1,6 @@
 // Reads XDMF 2 and 3 (xdmf.org, "XDMF model and format"): grids with their arrays in HDF5, in raw files or in
-// the text, as Holdfast, DOLFINx, meshio and ParaView write them. Of a collection in time the first grid
-// counts.
+// the text, as Holdfast, DOLFINx, meshio and ParaView write them. Only the first grid of a time series is
+// read.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -80,7 +80,7 @@ class XdmfReader {
   }
 
  private:
-  // All grids have the points of the first, as those of cells, facets and edges of one mesh do.
+  // All grids must have the points of the first, as those of cells, facets and edges of one mesh do.
   void read_points() {
     const auto with = std::find_if(file_.grids().begin(), file_.grids().end(),
                                    [](const XdmfGrid& g) { return g.geometry.has_value(); });
@@ -185,7 +185,7 @@ class XdmfReader {
     }
   }
 
-  // Ids of the cells: of volumes the region, of what else there is the marker.
+  // The ids of cells: of volumes the regions, of other cells the markers.
   void read_attributes(const XdmfGrid& grid, const std::vector<std::size_t>& cells) {
     const auto is_ids = [&](const XdmfAttribute& a) {
       const std::string center = lower(a.tag.attribute("Center"));
@@ -219,8 +219,8 @@ class XdmfReader {
     }
   }
 
-  /// A grid of tetrahedra that an earlier one has lists the tags of these, in whatever order: then they are
-  /// taken off again, and the result is which ones they are.
+  /// A grid that repeats the tetrahedra of an earlier one lists their tags, in any order. Then removes them
+  /// again and returns which cells they are.
   std::vector<std::size_t> take_off_known(std::size_t first) {
     std::vector<std::size_t> known;
     const auto key_of = [&](std::size_t cell) {
@@ -255,7 +255,7 @@ class XdmfReader {
     if (file_.left_out() > 0) grid_.other_arrays.push_back("grids of later times");
   }
 
-  /// NAME_surface.xdmf, whose points are those of this file.
+  /// Reads NAME_surface.xdmf, which has the same points.
   void read_surface_beside() {
     const std::filesystem::path beside = surface_beside(without_gz(file_.source().path));
     std::error_code error;

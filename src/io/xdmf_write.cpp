@@ -1,7 +1,7 @@
 // Writes XDMF 3 with its arrays in HDF5 (xdmf.org, "XDMF model and format"), as DOLFINx and meshio read it:
-// NAME.xdmf has a grid "mesh" of tetrahedra and its arrays in NAME.h5, NAME_surface.xdmf one of triangles on
-// the same points and its arrays in NAME_surface.h5, since DOLFINx looks for arrays in the file of the same
-// name alone. In one file, the second grid is "surface"; without tetrahedra, the one of triangles is "mesh".
+// NAME.xdmf has a grid "mesh" of tetrahedra with arrays in NAME.h5, and NAME_surface.xdmf one of triangles on
+// the same points with arrays in NAME_surface.h5, because DOLFINx looks for arrays only in the file of the
+// same name. In one file, the second grid is "surface"; without tetrahedra, the grid of triangles is "mesh".
 #include "io/formats.h"
 #include "io/hdf5_write.h"
 #include "io/mesh_sets.h"
@@ -40,10 +40,10 @@ void write_item(AtomicWriter& out, const std::string& file, std::string_view arr
       << array << "</DataItem>\n";
 }
 
-/// Names as meshio has them.
+/// Writes names in meshio's form.
 void write_names(AtomicWriter& out, const Names& names, bool surface_is_beside) {
   VtkFields fields = vtk_fields(names);
-  if (surface_is_beside) fields[kSurfaceBeside] = {{1, -1}};  // of no dimension, so that it names nothing
+  if (surface_is_beside) fields[kSurfaceBeside] = {{1, -1}};  // names nothing, because it has no dimension
   if (fields.empty()) return;
   out << "<Information Name=\"Information\" Value=\"" << std::uint64_t{fields.size()} << "\"><![CDATA[<main>";
   for (const auto& [name, pairs] : fields)
@@ -141,7 +141,7 @@ void write_xdmf(const std::filesystem::path& path, const Volume& volume, const W
     surface_heavy_file->finish();
     surface_file->finish();
   }
-  // All are complete before any gets its name.
+  // All files are completed before any gets its name.
   heavy_file.finish();
   volume_file.finish();
   heavy_file.commit();

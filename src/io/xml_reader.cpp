@@ -1,4 +1,4 @@
-// The tags of an XML text one after the other: as much of XML as files of meshes use.
+// Reads the tags of an XML text one after the other: the part of XML that mesh files use.
 #include "io/xml_reader.h"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// The bytes in UTF-8 of a character that `text` begins with by its number (&#252; or &#xfc;), and how much
-/// of the text it takes; nothing where there is none.
+/// The UTF-8 bytes of the character reference (&#252; or &#xfc;) at the start of `text`, and its length;
+/// empty if there is none.
 std::pair<std::string, std::size_t> character_by_number(std::string_view text) {
   if (!text.starts_with("&#")) return {};
   const bool hexadecimal = text.substr(2).starts_with('x');

@@ -1,4 +1,4 @@
-// Plain points, .xyz: three numbers a line, separated by blanks or commas; what follows them is ignored.
+// Plain points, .xyz: three numbers per line, separated by blanks or commas; the rest of a line is ignored.
 #include <algorithm>
 #include <string>
 

@@ -11,7 +11,7 @@ namespace holdfast::io {
 bool has_xz() { return true; }
 
 bool append_xz(std::string& bytes, std::string_view stream, std::size_t size) {
-  // The highest level of xz needs half of it; a damaged stream may ask for any.
+  // The highest level of xz needs half of this; a damaged stream may request any amount.
   std::uint64_t most_memory = std::uint64_t{128} << 20;
   const std::size_t before = bytes.size();
   bytes.resize(before + size);

@@ -11,14 +11,14 @@
 namespace holdfast::io {
 namespace {
 
-// Sections 4.3.6 to 4.3.16 of the specification; those of 64 bits are there where 32 do not suffice.
+// Sections 4.3.6 to 4.3.16 of the specification; the 64-bit records exist if 32 bits do not suffice.
 constexpr std::string_view kFileHeader = "PK\x03\x04", kDirectoryEntry = "PK\x01\x02", kEnd = "PK\x05\x06",
                            kEnd64 = "PK\x06\x06", kEnd64Locator = "PK\x06\x07";
 constexpr std::size_t kEnd64LocatorSize = 20;
 constexpr std::uint16_t kExtra64 = 1, kStored = 0, kDeflated = 8, kEncrypted = 1;
 constexpr std::uint32_t kIn64 = std::numeric_limits<std::uint32_t>::max();
 
-/// A cursor at `position` behind a record's mark, which must be there.
+/// A reader after the signature of the record at `position`, which must be there.
 ByteReader record(const Source& source, std::uint64_t position, std::string_view mark, const char* what) {
   if (position > source.bytes.size() || !source.bytes.substr(position).starts_with(mark))
     throw FileError(source.path, "byte " + std::to_string(position),
@@ -30,7 +30,7 @@ struct Directory {
   std::uint64_t entries = 0, position = 0;
 };
 
-/// What the end of the archive says of its directory; a comment may follow that end.
+/// The archive's directory, from the record at its end; a comment may follow that.
 Directory directory_of(const Source& source) {
   const std::size_t end = source.bytes.rfind(kEnd);
   if (end == std::string_view::npos)
@@ -55,7 +55,7 @@ Directory directory_of(const Source& source) {
   return directory;
 }
 
-/// Sizes and the offset beyond 32 bits, in the order in which the record left them out.
+/// Reads 64-bit sizes and offset, in the order in which the record omitted them.
 void read_wide(ByteReader extra, std::size_t end, ZipArchive::Entry& entry) {
   while (extra.position() + 4 <= end) {
     const auto kind = extra.read<std::uint16_t>();
