@@ -8,8 +8,8 @@
 
 namespace holdfast::io {
 
-/// A card and the fields of its lines: eight a line, or four if they are wide. The first and the last field
-/// of a line, which join lines, are not counted.
+/// A card and the fields of its lines: eight per line, or four if they are wide. The first and the last
+/// field of a line, which join lines, are not counted.
 class BdfCard {
  public:
   /// Adds the first line of the card or a continuation. The text of the lines must outlive the card.

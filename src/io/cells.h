@@ -17,8 +17,8 @@ namespace holdfast::io {
 /// Each quadrangle gets the diagonal at its vertex of the lowest index, so that cells fit together whatever
 /// their kinds and order (Dompierre, Labbé, Vallet, Camarero 1999). The tetrahedra join the cell's lowest
 /// vertex to the triangles of the faces that do not contain it. They are positive as far as the cell allows
-/// and plain arithmetic tells, whichever way round the file lists the corners. The vertices must already be
-/// known.
+/// and plain arithmetic can show, whichever way round the file lists the corners. The vertices must already
+/// be known.
 void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners, int region);
 
 /// The number of corners of a cell of first or second order, by the number of its nodes: 5 or 13, 6 or 15 or

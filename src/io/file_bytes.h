@@ -11,7 +11,7 @@
 
 namespace holdfast::io {
 
-/// A path without a final ".gz"; its extension then tells the format.
+/// A path without a final ".gz"; its extension then determines the format.
 [[nodiscard]] std::filesystem::path without_gz(std::filesystem::path path);
 
 /// The file beside `path` with another extension, or that name with ".gz" if only this file exists.

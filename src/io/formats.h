@@ -1,4 +1,4 @@
-// The readers and writers, one pair a format, and the table that finds them by extension.
+// The readers and writers, one pair per format, and the table that finds them by extension.
 #pragma once
 
 #include <span>
@@ -36,7 +36,7 @@ struct GmfSolution {
   std::size_t columns = 0;     ///< 1: scalars, 6: symmetric tensors
   std::vector<double> values;  ///< of all columns, vertex by vertex
 };
-/// The single scalar or symmetric tensor a vertex of a .solb file.
+/// The single scalar or symmetric tensor per vertex in a .solb file.
 [[nodiscard]] GmfSolution read_gmf_solution(const Source& source);
 [[nodiscard]] MeshData read_msh(const Source& source);
 [[nodiscard]] MeshData read_vtk(const Source& source);
@@ -105,8 +105,8 @@ void write_med(AtomicWriter& out, const Volume& volume);
 void write_openfoam(const std::filesystem::path& folder, const Volume& volume, const WriteOptions& options,
                     Watch& watch);
 [[nodiscard]] std::vector<Remark> not_in_openfoam(const Volume& volume, const WriteOptions& options);
-/// Whether a path names a folder polyMesh or a case that contains one; this tells the format, as an extension
-/// does.
+/// Whether a path names a folder polyMesh or a case that contains one; this determines the format, as an
+/// extension does.
 [[nodiscard]] bool is_poly_mesh(const std::filesystem::path& path);
 /// The polyMesh folder that a path names: the path itself, or constant/polyMesh in the case.
 [[nodiscard]] std::filesystem::path poly_mesh_of(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// Unpacks by zlib: files compressed by gzip, and the deflated files of an archive.
+// Decompresses by zlib: files compressed by gzip, and the deflated files of an archive.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The lines of an .inp file: keywords with their parameters, the lines of data behind each, and comments,
+// The lines of an .inp file: keywords with their parameters, the data lines after each, and comments,
 // some of which keep ids.
 #pragma once
 

@@ -8,7 +8,7 @@
 
 namespace holdfast::io {
 
-/// MED orders the first three corners of a tetrahedron the other way round. The table gives our corner or
+/// MED orders the first three corners of a tetrahedron in the opposite sense. The table gives our corner or
 /// mid-edge node for each of MED's. Once the corners are swapped, the order of edges is the same.
 inline constexpr std::array<std::size_t, 10> kMedTetrahedron{0, 2, 1, 3, 6, 5, 4, 7, 9, 8};
 

@@ -49,7 +49,7 @@ class Tags {
   [[nodiscard]] int of(std::size_t i) const { return i < values_.size() ? values_[i] : 0; }
   /// Changes the tag of an entity that already has one.
   void set(std::size_t i, int tag) { values_[i] = tag; }
-  /// The tags, one an entity, or empty if all are 0.
+  /// The tags, one per entity, or empty if all are 0.
   [[nodiscard]] std::vector<int> take(std::size_t count) {
     if (!values_.empty()) values_.resize(count, 0);
     return std::move(values_);
@@ -59,7 +59,7 @@ class Tags {
   std::vector<int> values_;
 };
 
-/// The tag of entity `i`, 0 where there are none.
+/// The tag of entity `i`, or 0 if there are none.
 [[nodiscard]] inline int tag_of(const std::vector<int>& tags, std::size_t i) {
   return tags.empty() ? 0 : tags[i];
 }

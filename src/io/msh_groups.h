@@ -62,7 +62,7 @@ class MshGroups {
   struct Element {
     std::int64_t type = 0;  // of none
     int group = 0, entity = 0;
-    std::size_t nodes = 0;  // where they stand
+    std::size_t nodes = 0;  // their position
   };
 
   std::map<Entity, int> first_;

@@ -33,7 +33,7 @@ class TextReader {
   /// The rest of the line without its end; moves to the next line.
   std::string_view rest_of_line();
 
-  /// A number; "nan" and "inf" are accepted, because `diagnose` says where they are.
+  /// A number; "nan" and "inf" are accepted, because `diagnose` reports where they are.
   double real(std::string_view what);
   std::int64_t integer(std::string_view what);
   /// An integer that fits a marker or region id.
@@ -54,7 +54,7 @@ class TextReader {
   [[noreturn]] void fail(const std::string& reason) const;
   /// Throws a FileError for the line of the byte at `position`.
   [[noreturn]] void fail_at(std::size_t position, const std::string& reason) const;
-  /// Throws that the file ends where `what` should stand.
+  /// Throws a FileError that says the file ends where `what` should be.
   [[noreturn]] void fail_truncated(std::string_view what) const;
 
   /// Offset of the next byte.

@@ -1,8 +1,9 @@
-// What the VTK formats have in common: cell types and the arrays that tell the cells apart.
+// What the VTK formats share: cell types and the arrays that distinguish cells.
 //
-// Holdfast writes tetrahedra first, then facets as triangles, then segments as lines, with these integers a
-// cell: "region" (of a tetrahedron, else 0), "marker" (of a facet or segment, else 0) and "kind" (the cell's
-// dimension: 3 tetrahedron, 2 facet, 1 segment); and where vertices are marked, an integer "marker" a point.
+// Holdfast writes tetrahedra first, then facets as triangles, then segments as lines, with these integers
+// per cell: "region" (of a tetrahedron, else 0), "marker" (of a facet or segment, else 0) and "kind" (the
+// cell's dimension: 3 tetrahedron, 2 facet, 1 segment); and, if vertices are marked, an integer "marker" per
+// point.
 #pragma once
 
 #include <array>
