@@ -21,10 +21,10 @@ namespace holdfast {
 struct Attempt {
   Input& input;
   const Options& options;
-  std::uint64_t seed;  ///< of all random orders
+  std::uint64_t seed;  ///< for all random orders
   const Threads& threads;
   Monitor& monitor;
-  const FillAnew* fill_anew;  ///< null: the optimisation fills no polyhedron anew
+  const FillAnew* fill_anew;  ///< null: the optimisation fills no polyhedra again
 
   [[nodiscard]] const Complex& complex() const { return input.complex(); }
   [[nodiscard]] Stage last_stage() const { return options.stop_after.value_or(Stage::optimise); }
@@ -33,9 +33,9 @@ struct Attempt {
 /// The complex times 2^scale in the middle of a box. Its vertices come first, then the corners of the box.
 struct BoxMesh {
   TetMesh mesh;
-  Standing standing;  ///< which facets and segments the mesh has
+  Standing standing;  ///< the facets and segments that exist in the mesh
   int scale = 0;
-  Vertex first_free = 0;    ///< after the vertices of the complex and of the box
+  Vertex first_free = 0;    ///< the first vertex after those of the complex and of the box
   ConstraintPieces pieces;  ///< if the run ends after partition
 
   [[nodiscard]] Report::Missing missing() const {

@@ -16,9 +16,9 @@ namespace holdfast {
 /// A volume and its vertices that no double represents; `volume` has the nearest doubles for them.
 struct Extract {
   Volume volume;
-  std::vector<FacetRegions> facet_regions;  ///< one a facet of the volume; none without regions
+  std::vector<FacetRegions> facet_regions;  ///< one per facet of the volume; empty without regions
   std::vector<ExactVertex> exact_vertices;
-  std::vector<Index> number;       ///< of a vertex of the mesh in the volume; not for extract_kept
+  std::vector<Index> number;       ///< by mesh vertex, its number in the volume; not for extract_kept
   std::size_t steiner_points = 0;  ///< vertices that are neither the complex's nor the box's
 };
 

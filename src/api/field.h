@@ -34,7 +34,7 @@ class Field {
   [[nodiscard]] bool has_metric() const { return !metrics_.empty(); }
   /// For comparison if the surface alone decides on sizes; otherwise null.
   std::unique_ptr<WithoutField> without;
-  double worst_without = 0;  ///< its worst Q, once it is optimised
+  double worst_without = 0;  ///< worst Q of `without`, once optimised
 
  private:
   BoxMesh& box_;

@@ -11,7 +11,7 @@ namespace holdfast {
 
 struct NearestPoints {
   double distance;
-  std::array<Point, 2> points;  ///< one on a facet of each set
+  std::array<Point, 2> points;  ///< one from each set
 };
 
 /// The least distance, in floating point, between two nonempty sets of facets with finite vertices. `step` is

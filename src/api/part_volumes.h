@@ -12,11 +12,11 @@ namespace holdfast {
 
 /// The faces of a volume with a tetrahedron on one side only.
 struct Boundary {
-  std::vector<Index> vertices;        ///< of the volume, ascending: those on the boundary
-  std::vector<Triangle> facets;       ///< of the volume's vertices, seen from outside
-  std::vector<Index> face;            ///< of each facet: 4 * tetrahedron + the corner opposite
-  std::size_t first_tetrahedron = 0;  ///< of all volumes' in turn
-  std::map<int, int> id_of;           ///< region ids of the volume, in the whole
+  std::vector<Index> vertices;        ///< the volume's vertices on the boundary, ascending
+  std::vector<Triangle> facets;       ///< of the volume's vertices, oriented outwards
+  std::vector<Index> face;            ///< by facet: 4 * tetrahedron + opposite corner
+  std::size_t first_tetrahedron = 0;  ///< in the tetrahedra of all volumes
+  std::map<int, int> id_of;           ///< by region id of the volume, the id in the whole
 };
 
 /// A face as seen from outside the tetrahedron.

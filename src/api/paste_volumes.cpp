@@ -130,9 +130,9 @@ class WholeFaces {
 
 /// What pasting changes in one volume.
 struct VolumeChange {
-  std::set<Index> faces;           ///< of its boundary: 4 * tetrahedron + face
-  std::vector<std::uint8_t> goes;  ///< by tetrahedron
-  std::set<int> regions;           ///< of these
+  std::set<Index> faces;           ///< changed faces of its boundary: 4 * tetrahedron + face
+  std::vector<std::uint8_t> goes;  ///< by tetrahedron, whether it is replaced
+  std::set<int> regions;           ///< with replaced tetrahedra
 };
 
 int region_of(const Volume& volume, Index tet) { return volume.regions.empty() ? 0 : volume.regions[tet]; }

@@ -11,10 +11,10 @@
 namespace holdfast::cli {
 
 struct AnyMesh {
-  bool is_volume = false;  ///< with tetrahedra; then `volume` counts, else `surface`
+  bool is_volume = false;  ///< whether `volume`, with tetrahedra, is used instead of `surface`
   Volume volume;
   Surface surface;
-  std::vector<Remark> remarks;  ///< of the reader
+  std::vector<Remark> remarks;  ///< from the reader
 
   [[nodiscard]] Names& names() { return is_volume ? volume.names : surface.names; }
 };

@@ -16,7 +16,7 @@ namespace {
 
 /// V or REGION=V.
 struct Bound {
-  std::string region;  ///< empty: everywhere
+  std::string region;  ///< empty: all regions
   double volume;
 };
 

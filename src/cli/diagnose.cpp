@@ -31,10 +31,10 @@ struct DiagnoseArguments {
 /// What is reported about a surface.
 struct Findings {
   std::vector<Defect> defects;
-  std::vector<Defect> outside;  ///< of a valid one: what `mesh` refuses unless it is asked to keep or drop it
+  std::vector<Defect> outside;  ///< of a valid surface: what `mesh` refuses unless told to keep or drop it
   DefectSummary summary;
   Cures cures;
-  bool in_time = true;  ///< else the time limit ended the search for cures, or for what lies outside
+  bool in_time = true;  ///< false: the time limit ended the search for cures, or for what lies outside
 };
 
 Json report_of(const Surface& surface, const Report::Input& input, const Findings& found) {

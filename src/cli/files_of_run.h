@@ -59,10 +59,10 @@ class FilesOfRun {
  private:
   struct File {
     std::string option;
-    std::filesystem::path path;  ///< as named
+    std::filesystem::path path;  ///< as the user named it
     bool written, exists;
-    struct stat status;          ///< if it exists; else of its folder
-    std::filesystem::path name;  ///< in this folder
+    struct stat status;          ///< of the file or, if it does not exist, of its folder
+    std::filesystem::path name;  ///< in that folder, if the file does not exist
   };
   void read(std::string_view option, const std::vector<std::filesystem::path>& paths);
   void add(File file);

@@ -14,7 +14,7 @@ namespace holdfast::cli {
 /// The input of the mesher: one surface, or the parts of several files.
 struct MeshInput {
   Surface surface;
-  std::vector<Surface> parts;  ///< empty where the surface is meshed as it is
+  std::vector<Surface> parts;  ///< empty if the surface is meshed as it is
   std::optional<PasteResult> pasted;
 };
 

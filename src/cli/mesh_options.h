@@ -26,7 +26,7 @@ struct MeshArguments {
   double tolerance = 0;
   bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
   std::optional<std::string> keep, quality, overlap;
-  std::optional<std::string> paste;   ///< the tolerance, or empty for none
+  std::optional<std::string> paste;   ///< the tolerance; empty if none is given
   std::optional<std::string> repair;  ///< the tolerance, or "true"
   RepairWays repair_ways;
   std::vector<std::string> holes, regions, without, names;

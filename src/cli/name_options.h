@@ -19,7 +19,7 @@ void add_name_option(CLI::App& command, std::vector<std::string>& arguments);
 /// The markers and region ids that occur.
 struct Nameable {
   std::set<int> facets, regions, segments, vertices;
-  bool regions_are_known = true;  ///< not of a surface without seeds, whose mesh numbers them
+  bool regions_are_known = true;  ///< false for a surface without seeds, whose mesh numbers the regions
 };
 [[nodiscard]] Nameable nameable_in(const Volume& volume);
 [[nodiscard]] Nameable nameable_in(const Surface& surface);

@@ -14,7 +14,7 @@ namespace holdfast::cli {
 
 /// The user's arguments.
 struct OrderArguments {
-  std::optional<int> order;  ///< none: 1 for what is made, and what a file has for what is converted
+  std::optional<int> order;  ///< none: 1 for a new mesh, and unchanged for a converted file
   std::filesystem::path curved;
   std::optional<double> tolerance;
 };

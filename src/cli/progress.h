@@ -13,7 +13,7 @@ namespace holdfast::cli {
 enum class Show {
   nothing,
   bar,    ///< one line on a terminal, rewritten in place and erased at the end
-  lines,  ///< one line a stage
+  lines,  ///< one line per stage
 };
 
 /// The display for --quiet and --verbose: by default a bar if stderr is a terminal.
@@ -40,7 +40,7 @@ class ProgressView {
   void finish();
 
  private:
-  bool tell(int order, const char* what, double share);  ///< a share of the whole command
+  bool tell(int order, const char* what, double share);  ///< `share` of the whole command
   void show_bar(const char* what, bool at_once);
   [[nodiscard]] double seconds() const;
   [[nodiscard]] std::string time_left() const;

@@ -11,7 +11,7 @@
 namespace holdfast::cli {
 
 struct RepairWays {
-  std::optional<std::size_t> fill_holes;  ///< at most so many sides
+  std::optional<std::size_t> fill_holes;  ///< the most sides of a hole
   bool unite = false;
 };
 

@@ -21,10 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* whole_name = "surface.vtu";  ///< of the copy of the whole surface
+constexpr const char* whole_name = "surface.vtu";  ///< the copy of the whole surface
 
 struct SplitArguments {
-  MeshArguments mesh;  ///< of these: surfaces, sizes, regions and holes
+  MeshArguments mesh;  ///< only surfaces, sizes, regions and holes
   std::size_t parts = 0;
   fs::path folder;
   LimitArguments limits;

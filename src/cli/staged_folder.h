@@ -26,7 +26,7 @@ class StagedFolder {
 
  private:
   std::filesystem::path folder_, staging_;
-  std::filesystem::path made_;  ///< the outermost folder that was not there; empty if all were
+  std::filesystem::path made_;  ///< the outermost folder created; empty if all existed
 };
 
 }  // namespace holdfast::cli

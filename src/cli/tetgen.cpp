@@ -28,7 +28,7 @@ namespace holdfast::cli {
 namespace {
 
 struct TetgenArguments {
-  std::vector<std::string> words;  ///< as typed
+  std::vector<std::string> words;  ///< as the user typed them
   std::filesystem::path report;
   LimitArguments limits;
   unsigned threads = 1;
@@ -171,7 +171,7 @@ Volume without_surface(const Volume& volume) {
 }
 
 struct Viewers {
-  std::filesystem::path vtk, medit;  ///< empty: not asked for
+  std::filesystem::path vtk, medit;  ///< empty: not requested
 };
 
 void write_all(const TetgenInput& input, const Volume& volume, const TetgenFiles& names,

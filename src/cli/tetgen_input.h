@@ -12,9 +12,9 @@ namespace holdfast::cli {
 
 struct TetgenInput {
   std::filesystem::path path;    ///< of the surface or the points
-  std::filesystem::path output;  ///< the name of the files written, without their endings
-  bool is_complex = false;       ///< a surface, not points alone
-  bool is_own_format = false;    ///< .poly, .smesh or .mesh: no .smesh is written beside
+  std::filesystem::path output;  ///< the name of the output files without extension
+  bool is_complex = false;       ///< a surface, not only points
+  bool is_own_format = false;    ///< .poly, .smesh or .mesh: no .smesh is written
   int first = 0;                 ///< the number of the first vertex
   Surface surface;
 

@@ -12,9 +12,9 @@ struct TetgenSwitches {
   bool keep_surface = false;         ///< Y
   bool refine = false;               ///< q
   double ratio = 2;                  ///< q1.4
-  double dihedral = 0;               ///< q1.4/20, degrees; 0: none was named
+  double dihedral = 0;               ///< q1.4/20, in degrees; 0: not given
   std::optional<double> max_volume;  ///< a0.1
-  bool volume_by_region = false;     ///< a: bounds of the regions in the file
+  bool volume_by_region = false;     ///< a: the bounds of regions in the file
   bool attributes = false;           ///< A
   bool size_field = false;           ///< m
   bool insert = false;               ///< i
@@ -32,7 +32,7 @@ struct TetgenSwitches {
   bool no_markers = false, no_nodes = false, no_elements = false, no_faces = false;  ///< B N E F
   bool same_name = false;                                                            ///< I
   bool check = false, quiet = false, verbose = false;                                ///< C Q V
-  std::string idle;  ///< switches that have no counterpart and are passed over: M, O, T, ...
+  std::string idle;  ///< ignored switches without a counterpart: M, O, T, ...
 
   /// Whether field points are wanted.
   [[nodiscard]] bool has_sizes() const { return refine || max_volume || volume_by_region || size_field; }

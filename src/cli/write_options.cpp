@@ -16,7 +16,7 @@ struct Choice {
   const char* option;
   bool WriteArguments::*given;
   bool WriteOptions::*set;
-  std::vector<std::string> formats;  ///< where it does something
+  std::vector<std::string> formats;  ///< those in which it has an effect
 };
 
 std::vector<Choice> choices() {

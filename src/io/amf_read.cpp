@@ -13,9 +13,9 @@ namespace holdfast::io {
 namespace {
 
 struct AmfObject {
-  Solid solid;                       ///< all volumes; which is which are its materials, until they are named
-  std::vector<std::string> volumes;  ///< names
-  std::vector<std::string> material_of;  ///< each volume's, by number
+  Solid solid;                           ///< all volumes, with one material each until they are named
+  std::vector<std::string> volumes;      ///< names
+  std::vector<std::string> material_of;  ///< by volume, its material
 };
 
 struct Instance {
@@ -162,15 +162,15 @@ class AmfReader {
   XmlReader xml_;
   Solids solids_;
   std::map<std::string, AmfObject> objects_;
-  std::vector<std::string> order_;  ///< of the objects
+  std::vector<std::string> order_;  ///< of the objects in the file
   std::map<std::string, std::string> materials_;
   std::vector<Instance> instances_;
-  std::vector<std::string> path_;  ///< names of the elements that are open
+  std::vector<std::string> path_;  ///< names of the open elements
   AmfObject* object_ = nullptr;
   std::string material_;
   Point point_{};
   Triangle facet_{};
-  int seen_ = 0;  ///< numbers of the point or the triangle that is open
+  int seen_ = 0;  ///< numbers read of the open point or triangle
   std::size_t curved_ = 0;
 };
 

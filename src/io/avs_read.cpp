@@ -102,7 +102,7 @@ class AvsReader {
   TextReader text_;
   MeshData mesh_;
   Numbered numbers_;
-  std::vector<int> markers_;  ///< by vertex, where any is marked
+  std::vector<int> markers_;  ///< by vertex, if any is marked
 };
 
 }  // namespace

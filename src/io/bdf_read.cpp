@@ -44,7 +44,7 @@ class BdfReader {
   struct Element {
     std::string name;
     int property;
-    std::vector<std::int64_t> nodes;  ///< corners, and behind them those nodes on edges that are there
+    std::vector<std::int64_t> nodes;  ///< corners, then those nodes on edges that exist
     std::size_t position;
     std::size_t corners;
   };
@@ -226,7 +226,7 @@ class BdfReader {
 
   TextReader text_;
   BdfCard card_;
-  std::size_t place_ = 0, behind_ = 0;  ///< where it begins and ends
+  std::size_t place_ = 0, behind_ = 0;  ///< where the card begins and ends
   MeshData mesh_;
   Numbered nodes_;
   std::vector<Element> elements_;
@@ -234,8 +234,9 @@ class BdfReader {
   std::map<int, int> ids_of_regions_, ids_of_markers_;
   NamedIds regions_{kRegionStem}, markers_{kFacetStem};
   std::map<std::string, std::size_t> skipped_;
-  bool has_default_system_ = false;            ///< whether some grid point names no coordinate system
-  std::optional<std::size_t> default_system_;  ///< where a GRDSET gives it another one than the basic
+  bool has_default_system_ = false;  ///< whether some grid point names no coordinate system
+  std::optional<std::size_t>
+      default_system_;  ///< position of a GRDSET with another system than the basic one
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ class FileBytes {
  private:
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;
-  std::optional<std::string> unpacked_;  ///< of a packed file, instead
+  std::optional<std::string> unpacked_;  ///< of a compressed file, instead
   std::size_t behind_ = 0;
 };
 

@@ -22,13 +22,13 @@ inline constexpr IdRule kFoamIds{false};
 
 /// A face of the mesh: its owner, its other cell, and the facet on it.
 struct FoamFace {
-  Triangle corners;  ///< seen from outside the owner
+  Triangle corners;  ///< oriented outwards from the owner
   Index owner = no_entity, neighbour = no_entity;
   Index facet = no_entity;
 };
 
 struct FoamMesh {
-  std::vector<FoamFace> inside, boundary;  ///< the second by patch
+  std::vector<FoamFace> inside, boundary;  ///< `boundary` is sorted by patch
   struct Patch {
     std::string name;
     std::size_t first, count;

@@ -14,7 +14,7 @@ namespace holdfast::io {
 namespace {
 
 constexpr std::string_view kMagic = "glTF";
-constexpr std::string_view kInText = "data:";  ///< starts the URI of a buffer in the JSON
+constexpr std::string_view kInText = "data:";  ///< start of the URI of an embedded buffer
 constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
@@ -22,7 +22,7 @@ struct Component {
   std::uint64_t code;
   std::size_t bytes;
   double (*load)(const char*);
-  double largest;  ///< that stands for 1 where values are normalized
+  double largest;  ///< the value that stands for 1 if normalized
 };
 
 template <typename T>

@@ -276,7 +276,7 @@ class GltfReader {
   Source source_;
   GltfFile file_;
   Solids solids_;
-  std::vector<std::optional<Solid>> meshes_;     ///< those that are put
+  std::vector<std::optional<Solid>> meshes_;     ///< meshes that are used
   std::map<std::size_t, std::size_t> count_of_;  ///< vertices, by accessor
   std::set<std::string> attributes_;
   std::size_t read_ = 0;  ///< vertices and corners

@@ -116,7 +116,7 @@ class GocadReader {
 
   TextReader text_;
   MeshData mesh_;
-  std::map<std::int64_t, Index> number_of_;  ///< of the object's vertices
+  std::map<std::int64_t, Index> number_of_;  ///< by number in the object
   std::map<int, std::string> names_;         ///< of objects with triangles
   std::size_t objects_ = 0, facets_before_ = 0, properties_ = 0;
   std::string name_, direction_;

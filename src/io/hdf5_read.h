@@ -74,7 +74,7 @@ class Hdf5File {
     Hdf5Datatype type;
     std::vector<std::uint64_t> shape;
     std::uint64_t count = 1;
-    std::string owned;       ///< unpacked bytes
+    std::string owned;       ///< decompressed bytes
     std::string_view bytes;  ///< `owned`, or bytes of the file
   };
   struct Chunks;

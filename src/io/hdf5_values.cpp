@@ -39,8 +39,8 @@ std::string unshuffled(const std::string& bytes, std::size_t size) {
 /// The chunks of an array.
 struct Hdf5File::Chunks {
   std::vector<std::uint64_t> shape;  ///< of a chunk
-  std::size_t file_rank = 0;         ///< directions that the file has offsets for, besides one for bytes
-  std::uint64_t size = 0;            ///< bytes of one that is not packed
+  std::size_t file_rank = 0;         ///< dimensions for which the file has offsets, besides one for bytes
+  std::uint64_t size = 0;            ///< bytes of an unpacked chunk
   const std::vector<Filter>& filters;
 };
 

@@ -13,10 +13,10 @@
 namespace holdfast::io {
 
 struct InpElement {
-  int dimension;  ///< 0: no shape, and so no entity
+  int dimension;  ///< 0: no shape, so no entity
   Index entity;   ///< in the mesh, among those of its dimension; the first of a polygon's
-  Index count;    ///< of a polygon or cell that is cut: its facets or tetrahedra
-  Index cell;     ///< of a hexahedron, prism or pyramid: its index; else no_entity
+  Index count;    ///< of a polygon or cell that is split: its facets or tetrahedra
+  Index cell;     ///< index of a hexahedron, prism or pyramid, otherwise no_entity
 };
 
 /// Counts generated nodes and elements: a few lines of a short file may generate very many.
@@ -86,7 +86,7 @@ class InpElements {
   MeshData& mesh_;
   const bool has_copies_;
   InpMade copies_;
-  std::map<std::int64_t, Original> originals_;  ///< by the element's number, where there are copies
+  std::map<std::int64_t, Original> originals_;  ///< by element number, if there are copies
   Numbered nodes_, numbers_;
   std::vector<InpElement> elements_;
   std::vector<Cell> cells_;

@@ -34,7 +34,7 @@ class InpGenerated {
   [[nodiscard]] const Numbers& set_of(const InpText& text, std::string_view name) const;
 
   InpElements& elements_;
-  std::map<std::string, Numbers> sets_;  ///< by names in lower case
+  std::map<std::string, Numbers> sets_;  ///< by lower-case name
   InpMade made_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 /// An included file, which replaces the text from `begin` to `end`.
 struct Include {
   std::size_t begin, end;
-  std::string name;  ///< empty: it names none
+  std::string name;  ///< empty if the line names none
 };
 
 constexpr const char* kLineEnds = "\r\n";

@@ -35,7 +35,7 @@ class InpSets {
   void add_other(const InpText& text, const std::string& name, std::size_t elements, Members& members) const;
 
   std::map<std::string, Members> sets_, listed_;
-  std::vector<std::string> order_;  ///< in which their names come first
+  std::vector<std::string> order_;  ///< in which names first occur
 };
 
 /// The name of a set as users see it.
@@ -53,7 +53,7 @@ class InpSurfaces {
   struct Side {
     std::string_view element, side;
     std::size_t position;
-    std::size_t scope;  ///< of scopes_
+    std::size_t scope;  ///< index in scopes_
   };
   class Facets;
 

@@ -46,10 +46,10 @@ constexpr double kRead = 0.3;  // share of the work once the bytes of a file are
 
 struct Format {
   std::string_view extension;
-  Reader surface, volume;      ///< null: not read as such
-  Writer write;                ///< null: volumes are not written in it
-  Remarks not_held = nullptr;  ///< what the writer does not hold as it is; null: everything is held
-  bool has_names = true;       ///< of ids, in what is written
+  Reader surface, volume;      ///< null: not readable as this
+  Writer write;                ///< null: cannot be written as a volume
+  Remarks not_held = nullptr;  ///< what the writer does not store unchanged; null: it stores everything
+  bool has_names = true;       ///< names of ids are written
 };
 
 constexpr Format kFormats[] = {

@@ -25,7 +25,7 @@ struct WatchedByte {
 
   const char* at;
   Watch* watch;
-  const char** reached;  ///< the end of what was read
+  const char** reached;  ///< the end of the bytes read
 
   char operator*() const { return *at; }
   WatchedByte& operator++() {
@@ -130,7 +130,7 @@ class TreeMaker final : public nlohmann::json_sax<Json> {
   std::string_view text_;
   const char* reached_ = text_.data();
   Json root_;
-  std::vector<Json*> open_;  ///< what the next value is in, from outside to inside
+  std::vector<Json*> open_;  ///< the open arrays and objects, from outside to inside
   std::string key_;
   std::size_t values_ = 0;
 };

@@ -38,8 +38,8 @@ struct IdRule {
 
 /// The ids of the entities of one kind, as written to the file.
 struct Labels {
-  std::string_view stem;             ///< of the names of ids without one: "surface" for surface_3
-  std::vector<int> ids;              ///< one an entity
+  std::string_view stem;             ///< of default names: "surface" for surface_3
+  std::vector<int> ids;              ///< one per entity
   std::map<int, std::string> names;  ///< one for every id in use, all different
   std::map<int, int> renumbered;     ///< from the volume's id to the file's, if these differ
   std::size_t changed_names = 0;     ///< names that the format cannot store unchanged

@@ -35,7 +35,7 @@ struct Families {
 struct Element {
   std::string type;
   std::size_t nodes_each = 0;
-  std::vector<std::int64_t> nodes;  ///< the first node of all, the second of all ...
+  std::vector<std::int64_t> nodes;  ///< the first node of all elements, then the second of all, ...
   std::vector<std::int32_t> families;
 };
 
@@ -176,7 +176,7 @@ class MedWriter {
   const MedLabels labels_;
   Watch* const watch_;
   Families regions_, facets_, segments_, vertices_;
-  std::list<std::string> group_names_;  ///< stay where they are
+  std::list<std::string> group_names_;  ///< a list, because its addresses are stable
   std::vector<Element> elements_;
   std::vector<double> coordinates_;
   std::vector<std::int32_t> node_families_;

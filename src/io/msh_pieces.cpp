@@ -125,8 +125,8 @@ class Survey {
 
   std::map<EntityKey, std::uint64_t> counts;  ///< elements of each entity
   std::map<EntityKey, int> tags;
-  std::array<std::map<int, int>, 4> parents;  ///< by dimension, of each id in the file
-  std::vector<int> ghost_tags;                ///< of each part
+  std::array<std::map<int, int>, 4> parents;  ///< by dimension, then by id in the file
+  std::vector<int> ghost_tags;                ///< by part
   std::array<Labels, 4> labels;
   std::vector<std::uint64_t> nodes_of_part;
   std::vector<Ghost> ghosts;

@@ -425,7 +425,7 @@ class MshReader {
   MshNodes nodes_;
   MshGroups groups_;
   std::set<std::pair<std::size_t, std::int64_t>> between_;  ///< entities between parts
-  std::vector<int> point_markers_;                          ///< by vertex, where any is marked
+  std::vector<int> point_markers_;                          ///< by vertex, if any is marked
   std::array<NamedIds, 4> names_{NamedIds(kVertexStem), NamedIds(kSegmentStem), NamedIds(kFacetStem),
                                  NamedIds(kRegionStem)};  ///< by dimension
   EntityIds ids_;

@@ -22,7 +22,7 @@ struct Dimension {
   int number;
   int type;
   Labels labels;
-  std::vector<Index> vertices;  ///< of dimension 0: those that are marked
+  std::vector<Index> vertices;  ///< in dimension 0: the marked ones
 };
 
 struct MshData {

@@ -174,7 +174,7 @@ class ObjReader {
   Source source_;
   MeshData mesh_;
   std::size_t coloured_ = 0;  ///< vertices with colours or weights
-  std::size_t seen_ = 0;      ///< vertices above the current line
+  std::size_t seen_ = 0;      ///< vertices before the current line
   std::vector<Index> corners_;
   std::array<std::size_t, std::size(kLooks)> looks_{};  ///< lines of each
 
@@ -192,7 +192,7 @@ class ObjReader {
     std::map<std::string, std::size_t> numbers_{{"", 0}};
     std::vector<std::string> names_{""};
   } labels_;
-  std::size_t group_ = 0, material_ = 0;         ///< of the lines that follow
+  std::size_t group_ = 0, material_ = 0;         ///< of the following lines
   std::vector<std::size_t> groups_, materials_;  ///< of the facets
   NamedIds ids_{kFacetStem};
 };

@@ -14,7 +14,7 @@ namespace {
 
 struct Header {
   bool binary = false;
-  std::size_t floats_behind = 0;  ///< numbers behind the coordinates of a vertex
+  std::size_t floats_behind = 0;  ///< numbers after the coordinates of a vertex
 };
 
 /// Skips what may precede the header: "appearance" with display settings in braces.

@@ -33,11 +33,11 @@ struct Element {
 };
 
 struct Header {
-  NamedIds facets{kFacetStem}, vertices{kVertexStem}, segments{kSegmentStem};  ///< that comments name
+  NamedIds facets{kFacetStem}, vertices{kVertexStem}, segments{kSegmentStem};  ///< named by comments
   bool binary = false;
   std::endian order = std::endian::little;
   std::vector<Element> elements;
-  std::vector<std::string> others;  ///< words of lines that are none of PLY's
+  std::vector<std::string> others;  ///< words of lines unknown to PLY
 };
 
 std::size_t size_of(PlyType type) {
@@ -420,7 +420,7 @@ class PlyReader {
     }
   }
 
-  const TextReader& text_;  ///< for errors of the header
+  const TextReader& text_;  ///< for errors in the header
   const Header& header_;
   Values values_;
   MeshData mesh_;

@@ -11,7 +11,7 @@
 namespace holdfast::io {
 
 struct SlicerVolume {
-  std::uint64_t first = 0, last = 0;  ///< of the object's triangles, both included
+  std::uint64_t first = 0, last = 0;  ///< first and last of the object's triangles
   std::string name;
   std::string kind =
       "ModelPart";  ///< or "NegativeVolume", "ParameterModifier", "SupportBlocker" and the like

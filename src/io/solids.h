@@ -16,7 +16,7 @@ struct Solid {
   std::vector<Point> vertices;
   std::vector<Triangle> facets;
   std::vector<std::string> materials;       ///< names
-  std::vector<std::size_t> facet_material;  ///< one a facet, from 1; 0: none; empty: none has one
+  std::vector<std::size_t> facet_material;  ///< one per facet, from 1; 0: none; empty: no facet has one
 };
 
 class Solids {
@@ -38,7 +38,7 @@ class Solids {
   /// Triangles of one copy and material.
   struct Group {
     std::string copy, material;
-    bool alone = false;  ///< the whole copy
+    bool alone = false;  ///< the group is the whole copy
   };
 
   Source source_;

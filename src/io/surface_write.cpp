@@ -153,9 +153,9 @@ void write_poly(AtomicWriter& out, const Surface& surface) {
 struct Format {
   std::string_view extension;
   void (*write)(AtomicWriter&, const Surface&);  ///< null: as a volume without tetrahedra
-  bool markers, segments, seeds;                 ///< what it holds
-  bool vertex_markers, segment_markers;          ///< with a null writer, that one tells
-  const NameRule* names = nullptr;               ///< of markers; null: it holds none, or the writer tells
+  bool markers, segments, seeds;                 ///< whether it stores them
+  bool vertex_markers, segment_markers;          ///< without a writer, the volume's writer decides
+  const NameRule* names = nullptr;               ///< of markers; null: it stores none, or the writer decides
 };
 
 constexpr std::array kFormats{Format{".off", write_off, false, true, false, false, false},

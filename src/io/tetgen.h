@@ -9,7 +9,7 @@ namespace holdfast::io {
 struct TetgenNodes {
   std::vector<Point> vertices;
   Tags markers;
-  std::size_t attributes = 0;  ///< numbers a vertex that a mesh cannot store
+  std::size_t attributes = 0;  ///< numbers per vertex that a mesh cannot store
   std::int64_t base = 0;
 };
 

@@ -17,7 +17,7 @@ constexpr std::string_view kModelRelation = "http://schemas.microsoft.com/3dmanu
 
 /// A placed reference to another object: a component of an object, or an item of the build.
 struct Use {
-  std::string part;  ///< the file of the package that has it
+  std::string part;  ///< the file of the package that contains it
   std::uint64_t object = 0;
   Placement placement;
 };
@@ -26,7 +26,7 @@ struct Object {
   Solid solid;
   std::vector<Use> components;
   bool used = false;     ///< by another object
-  bool is_model = true;  ///< no support, and nothing else that is not to be made (section 4.1)
+  bool is_model = true;  ///< not a support or another object that is not manufactured (section 4.1)
 };
 
 using Key = std::pair<std::string, std::uint64_t>;  ///< part and number
@@ -178,7 +178,7 @@ class Model {
   Object* object_ = nullptr;
   std::map<std::string, std::vector<std::string>> material_groups_;
   std::vector<std::string>* materials_ = nullptr;
-  std::string object_group_;  ///< of materials, where a triangle names none
+  std::string object_group_;  ///< material group of triangles that name none
   std::size_t object_material_ = 0;
   std::vector<Use> items_;
   std::set<std::string> parts_;
@@ -337,11 +337,11 @@ class Package {
   ZipArchive archive_;
   std::map<Key, Object> objects_;
   std::map<std::string_view, std::size_t> left_out_;
-  std::size_t no_material_ = 0;  ///< volumes that are none
-  std::size_t no_models_ = 0;    ///< copies of objects that are none
-  std::string root_;             ///< the part of the build
+  std::size_t no_material_ = 0;  ///< volumes without material
+  std::size_t no_models_ = 0;    ///< copies of objects that are no models
+  std::string root_;             ///< the part with the build
   Solids solids_;
-  std::vector<Key> open_;  ///< objects whose components are being put
+  std::vector<Key> open_;  ///< objects whose components are being placed
   std::size_t uses_ = 0;
 };
 

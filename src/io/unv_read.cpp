@@ -280,10 +280,10 @@ class UnvReader {
                     "the " + std::string(what) + " " + std::to_string(number) + " is there twice");
   }
 
-  struct Part {  ///< of a group: its elements of one dimension
+  struct Part {  ///< the elements of a group with one dimension
     const std::string* name;
     std::vector<Index> elements;
-    std::optional<int> property;  ///< if all of them, and no others, have it
+    std::optional<int> property;  ///< set if all of these elements, and no others, have it
   };
 
   std::vector<Part> parts_of(int dimension) const {

@@ -17,7 +17,7 @@ struct VrmlNode;
 struct VrmlField {
   std::vector<double> numbers;
   std::vector<const VrmlNode*> nodes;  ///< nullptr for NULL
-  std::string word;                    ///< the last value that is neither: TRUE, an enumerator, a text
+  std::string word;                    ///< the last other value: TRUE, an enumerator, a text
 };
 
 struct VrmlNode {

@@ -93,11 +93,11 @@ inline constexpr std::array<std::string_view, 8> kMarkerArrays{
 /// Cells as read from a file, not yet checked.
 struct VtkGrid {
   std::vector<Point> points;
-  std::vector<std::uint8_t> types;         ///< VtkCell, one a cell
-  std::vector<std::int64_t> ends;          ///< where each cell's corners end
+  std::vector<std::uint8_t> types;         ///< VtkCell, one per cell
+  std::vector<std::int64_t> ends;          ///< end of each cell's corners
   std::vector<std::int64_t> connectivity;  ///< the corners of all cells
-  std::vector<int> regions, markers;       ///< empty, or one a cell
-  std::vector<int> point_markers;          ///< empty, or one a point
+  std::vector<int> regions, markers;       ///< empty, or one per cell
+  std::vector<int> point_markers;          ///< empty, or one per point
   std::vector<std::string> other_arrays;   ///< names of arrays that a mesh cannot store
   Names names = {};
 };

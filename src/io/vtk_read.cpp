@@ -362,11 +362,11 @@ class VtkReader {
 
   TextReader text_;
   bool binary_ = false, has_points_ = false;
-  bool of_cells_ = false, of_points_ = false;  ///< what the current attributes belong to
+  bool of_cells_ = false, of_points_ = false;  ///< where the current attributes belong
   std::uint64_t tuples_ = 0;                   ///< of the current attributes
   VtkGrid grid_;
-  std::map<std::string, std::vector<int>> other_ids_;  ///< arrays that other programs have ids in
-  std::set<std::string> taken_;                        ///< of these, those that are in use
+  std::map<std::string, std::vector<int>> other_ids_;  ///< arrays in which other programs store ids
+  std::set<std::string> taken_;                        ///< those of them that are used
   VtkNames names_;
   std::array<VtkGrid, 4> parts_;  ///< cells of polygonal data: vertices, lines, polygons, strips
 };

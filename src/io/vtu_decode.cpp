@@ -94,7 +94,7 @@ bool append_deflated(std::string& bytes, std::string_view packed, std::size_t si
 }
 
 struct WayToUnpack {
-  std::uint64_t best_ratio;  ///< which bounds the memory
+  std::uint64_t best_ratio;  ///< bounds the memory
   bool (*append)(std::string& bytes, std::string_view packed, std::size_t size);
 };
 

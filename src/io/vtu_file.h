@@ -16,7 +16,7 @@ namespace holdfast::io {
 /// A DataArray element, not yet decoded.
 struct DataArray {
   XmlTag tag;
-  std::size_t content = 0;  ///< offset behind the tag
+  std::size_t content = 0;  ///< offset after the tag
 };
 
 /// A whole file. Its arrays are decoded on demand. All queries concern the current piece, which at first is

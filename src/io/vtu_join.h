@@ -12,9 +12,9 @@ namespace holdfast::io {
 
 struct VtuPiece {
   std::filesystem::path path;
-  std::string told_as;  ///< prefix of remarks about it
+  std::string told_as;  ///< prefix of remarks about the piece
   VtuBlock block;
-  std::vector<Index> number = {};  ///< of its vertices in the whole
+  std::vector<Index> number = {};  ///< by vertex, its number in the whole
 };
 
 /// Takes the meshes of the pieces and numbers their vertices.

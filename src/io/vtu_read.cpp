@@ -48,7 +48,7 @@ void attach(MeshData& mesh, VtuBlock&& part, const std::filesystem::path& path) 
 /// The mesh of a file of one or more pieces, without the file that may be beside it.
 struct WholeFile {
   VtuBlock block;
-  PointArray array;  ///< the first of those that are asked for
+  PointArray array;  ///< the first of the requested ones
 };
 WholeFile read_whole(VtuFile& file, VtuGhosts ghosts, std::span<const char* const> arrays = {}) {
   WholeFile whole;

@@ -33,7 +33,7 @@ struct XdmfGrid {
   std::optional<XmlTag> topology, geometry;
   std::vector<XdmfItem> cells, points;
   std::vector<XdmfAttribute> attributes;
-  bool takes_topology = false;  ///< by xi:include from the first grid
+  bool takes_topology = false;  ///< uses the first grid's, by xi:include
 };
 
 /// A whole file. Arrays are read on demand; the HDF5 files stay open.

@@ -20,7 +20,7 @@ struct XdmfHeavy {
 struct XdmfCells {
   std::string_view shape, array;  ///< the name of the shape, and the array of nodes
   std::uint64_t cells, nodes_each;
-  std::vector<std::string_view> attributes;  ///< arrays of 32-bit integers, one a cell
+  std::vector<std::string_view> attributes;  ///< arrays of 32-bit integers, one per cell
 };
 
 /// Writes a grid of a file with several.

@@ -20,7 +20,7 @@ struct Shape {
   std::string_view name, short_name;
   std::int64_t number;  ///< in mixed topologies
   VtkCell cell;
-  std::size_t corners;  ///< 0: as NodesPerElement, or the cell itself, says
+  std::size_t corners;  ///< 0: given by NodesPerElement or the cell
 };
 
 constexpr Shape kShapes[] = {
@@ -277,7 +277,7 @@ class XdmfReader {
 
   XdmfFile file_;
   VtkGrid grid_;
-  std::vector<int> tags_;        ///< one a cell
+  std::vector<int> tags_;        ///< one per cell
   std::size_t first_cells_ = 0;  ///< of the first grid
 };
 

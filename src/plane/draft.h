@@ -8,10 +8,10 @@
 namespace holdfast::plane {
 
 struct Draft {
-  Points points;  ///< those of the input, then those that are added
+  Points points;  ///< points of the input, then added points
   std::vector<Ends> segments;
   Triangles mesh;
-  std::vector<Vertex> order = {};  ///< of each point of the input its number there, if it is not the same
+  std::vector<Vertex> order = {};  ///< by point, its number in the input; empty if all are the same
 
   /// The number of a point in the input; added points come after these.
   [[nodiscard]] Vertex number(Vertex v) const { return v < order.size() ? order[v] : v; }

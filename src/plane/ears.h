@@ -19,7 +19,7 @@ struct EarCounts {
 struct EarMesh {
   explicit EarMesh(std::size_t edges) : sides(2 * edges, kNoEdge) {}
   Triangles mesh;
-  std::vector<EdgeCode> sides;  ///< on the left of edge i, 2 i, and on its right, 2 i + 1
+  std::vector<EdgeCode> sides;  ///< edge i has the code at 2 i on its left, at 2 i + 1 on its right
   EarCounts counts;
 };
 

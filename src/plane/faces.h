@@ -13,7 +13,7 @@ struct Walks {
   /// For each vertex, the edge on which the walk leaves it: 2 i for edge i in its direction, 2 i + 1 against
   /// it.
   std::vector<std::uint32_t> sides;
-  std::vector<std::size_t> first;  ///< of each walk, and the end of the last
+  std::vector<std::size_t> first;  ///< start of each walk, and the end of the last
   [[nodiscard]] std::size_t count() const { return first.size() - 1; }
 };
 

@@ -19,9 +19,9 @@ struct PolygonFacet {
 
 /// The triangles of a "face" of any number of corners, or why it has none.
 struct CutPolygon {
-  std::vector<Triangle> triangles;  ///< empty if `reason` is not
+  std::vector<Triangle> triangles;  ///< empty if there is a `reason`
   std::string reason;
-  double deviation = 0;  ///< largest distance of a corner from the mean plane; 0 where rounding explains it
+  double deviation = 0;  ///< largest distance of a corner from the mean plane; 0 if rounding explains it
 };
 
 /// The triangles of a polygon of at least four places, with its orientation. A polygon that is convex, seen
@@ -40,7 +40,7 @@ struct CutPolygon {
 /// The planes of facets, or the number (from 0) of a facet that lies in no plane, and the reason.
 struct FoundPlanes {
   PlanesInSpace planes;  ///< without points and remarks
-  double deviation = 0;  ///< as of CutPolygon
+  double deviation = 0;  ///< as in CutPolygon
   std::size_t facet = 0;
   std::string reason;
 };

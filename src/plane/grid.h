@@ -12,7 +12,7 @@ namespace holdfast::plane {
 /// coordinate at any magnitude: halving and extents that are not denormal avoid overflow and underflow.
 class Grid {
  public:
-  Grid() = default;  ///< of one cell
+  Grid() = default;  ///< has one cell
   Grid(std::span<const Position> points, std::uint32_t n) {
     for (std::size_t k = 0; k < 2; ++k) {
       double least = points[0][k], most = least;

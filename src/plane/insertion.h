@@ -19,8 +19,8 @@ class Insertion {
   struct Place {
     enum class Kind { inside, on_edge, behind_constraint, nowhere };
     Kind kind = Kind::nowhere;
-    std::uint32_t triangle = kNoVertex;  ///< inside
-    EdgeCode edge = kNoEdge;             ///< that it lies on, or first constraint that hides it
+    std::uint32_t triangle = kNoVertex;  ///< that contains it
+    EdgeCode edge = kNoEdge;             ///< on which it lies, or the first constraint that hides it
   };
   /// Locates p from `start`, which lies strictly inside triangle t.
   [[nodiscard]] Place locate(Vertex p, Vertex start, std::uint32_t t) const;

@@ -47,7 +47,7 @@ class Level {
   /// The mean plane is that of `sides` (Newell), through the mean place.
   Level(const Places& places, const Sides& sides, double tolerance);
 
-  [[nodiscard]] bool straight() const { return straight_; }  ///< all places lie on one line
+  [[nodiscard]] bool straight() const { return straight_; }  ///< all places are collinear
   [[nodiscard]] bool flat() const { return flat_; }          ///< exactly
   [[nodiscard]] bool near() const { return near_; }          ///< within the tolerance, or rounding
   /// The same, or within the rounding of a file with six digits or single precision.

@@ -11,22 +11,22 @@
 namespace holdfast::plane {
 
 struct RefineOptions {
-  double angle = 0;                ///< least angle of a triangle, degrees
-  double size = 0;                 ///< most that an edge may measure; 0: no limit
-  std::vector<double> areas = {};  ///< most that a triangle may measure, by its mark; 0: no limit
-  bool keep_boundary = false;      ///< no point on constraints
-  std::size_t most_points = 0;     ///< that may be added
+  double angle = 0;                ///< least angle of a triangle, in degrees
+  double size = 0;                 ///< longest edge allowed; 0: no limit
+  std::vector<double> areas = {};  ///< largest area of a triangle, by its mark; 0: no limit
+  bool keep_boundary = false;      ///< puts no point on constraints
+  std::size_t most_points = 0;     ///< limit on added points
 };
 
 struct Refined {
   struct OnSegment {
     std::uint32_t segment;
-    double where;  ///< grows from the segment's first end to the second
+    double where;  ///< position along the segment, which grows from its first end to the second
     Vertex point;
   };
-  std::vector<OnSegment> on_segments;  ///< in the order of the segments, and along them
-  std::size_t inside = 0;              ///< points added on no constraint
-  std::size_t on_others = 0;           ///< on constraints that are no segments: the convex hull
+  std::vector<OnSegment> on_segments;  ///< by segment, in order along each
+  std::size_t inside = 0;              ///< added points not on a constraint
+  std::size_t on_others = 0;           ///< added points on constraints that are no segments: the convex hull
   std::size_t small_input =
       0;  ///< triangles below the bound in, or across from, a small angle between segments
   std::size_t small_left = 0;  ///< others below the bound

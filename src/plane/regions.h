@@ -21,7 +21,7 @@ struct Regions {
 /// For each place, a triangle that contains it, or kNoVertex.
 struct Found {
   std::uint32_t triangle = kNoVertex;
-  bool on_constraint = false;  ///< it lies on a constrained edge, or at a vertex of one
+  bool on_constraint = false;  ///< lies on a constrained edge or at an end of one
 };
 [[nodiscard]] std::vector<Found> find_triangles(const Triangles& mesh, Points& points,
                                                 const GivenPoints& places);

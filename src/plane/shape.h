@@ -62,9 +62,9 @@ struct Shape {
     const double p = edges[(shortest + 1) % 3], q = edges[(shortest + 2) % 3];
     cosine = (p + q - edges[shortest]) / (2 * std::sqrt(p) * std::sqrt(q));
   }
-  std::array<double, 3> edges;  ///< squares of lengths
+  std::array<double, 3> edges;  ///< squared lengths
   std::uint32_t shortest;
-  double cosine;  ///< of the least angle, which lies opposite to the shortest edge
+  double cosine;  ///< of the least angle, opposite the shortest edge
 };
 
 /// The least angle of triangles.

@@ -38,7 +38,7 @@ using Poll = std::function<void(double)>;
 struct alignas(32) Corners {
   std::array<Vertex, 3> v;
   std::array<EdgeCode, 3> across;
-  std::uint32_t constrained = 0;  ///< bit i: edge i
+  std::uint32_t constrained = 0;  ///< bit i: edge i is a constraint
   std::uint32_t mark = 0;
 };
 
