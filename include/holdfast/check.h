@@ -22,7 +22,7 @@ enum class RuleKind : int {
   regions_numbered = 11,
   markers_kept = 12,
   nothing_dropped = 13,
-  // Of volumes of second order alone:
+  // Only for volumes of second order:
   mid_nodes_placed = 14,
   jacobians_positive = 15,
 };
@@ -33,9 +33,9 @@ enum class RuleKind : int {
 /// One rule of the promise and whether it holds.
 struct Rule {
   RuleKind kind;
-  std::string name;  ///< that of `kind`
+  std::string name;  ///< the name of `kind`
   bool holds;
-  std::string detail;  ///< counts if the rule holds; else the first offending entities
+  std::string detail;  ///< counts if the rule holds; otherwise the first offending entities
 };
 
 struct CheckResult {

@@ -8,19 +8,19 @@
 
 namespace holdfast {
 
-/// What is claimed of a repaired surface: the lists of a RepairResult, or of the files that `holdfast repair`
+/// Claims about a repaired surface: the lists of a RepairResult, or of the files that `holdfast repair`
 /// writes. Indices are those of the input and of the output.
 struct RepairClaims {
   IndexLists parents;                         ///< by facet of the output, facets of the input
-  std::optional<IndexLists> segment_parents;  ///< nothing: not told
+  std::optional<IndexLists> segment_parents;  ///< no value: unknown
   std::vector<RepairResult::Moved> moved;
   std::vector<RepairResult::Dropped> dropped;
-  std::optional<std::vector<RepairResult::Merged>> merged;  ///< nothing: not told
-  /// Nothing: not told. Facets without parents then count as fillings.
+  std::optional<std::vector<RepairResult::Merged>> merged;  ///< no value: unknown
+  /// No value: unknown. Facets without parents then count as fillings.
   std::optional<std::vector<RepairResult::Filled>> filled;
   std::map<int, std::vector<int>> marker_sets;
   double max_displacement = 0;
-  /// The options of the repair that change valid surfaces, too. Nothing: not told.
+  /// The options of the repair that change valid surfaces, too. No value: unknown.
   std::optional<double> weld, join;
   std::optional<bool> unite;
 };
@@ -40,7 +40,7 @@ enum class RepairRuleKind : int {
   repeats_listed = 9,     ///< facets with the same corners are listed as merged
   fillings_bounded = 10,  ///< facets without parents close the holes that are listed
   markers_kept = 11,      ///< each facet's marker stands for those of its parents
-  valid_unchanged = 12,   ///< a valid surface is as it was
+  valid_unchanged = 12,   ///< a valid surface is unchanged
 };
 /// "output valid" and so on; stable.
 [[nodiscard]] HOLDFAST_API const char* name(RepairRuleKind kind);

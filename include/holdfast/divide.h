@@ -18,17 +18,17 @@ namespace holdfast {
 
 struct DivideOptions : Limits {
   std::size_t parts = 2;
-  double size = 0;              ///< `Sizes::size` of the parts' meshes; 0: as the surface has it
+  double size = 0;              ///< `Sizes::size` of the parts' meshes; 0: that of the surface
   Keep keep = Keep::automatic;  ///< not Keep::box
   std::vector<Point> holes;
   std::vector<RegionSeed> regions;  ///< the parts get their sizes, but not their largest volumes
   bool drop_outside = false;
   std::uint64_t seed = 1;
-  unsigned threads = 1;  ///< 0: all there are; the result is the same
+  unsigned threads = 1;  ///< 0: all available; the result is the same
   ProgressFunction progress = {};
 };
 
-/// A closed surface, to be meshed by itself with field points.
+/// A closed surface, to be meshed separately with field points.
 struct SurfacePart {
   /// The facets of the whole surface that bound the part, then the interfaces, which carry
   /// `SurfaceDivision::interface_marker`. Vertices keep the order of the whole. `regions` number the regions
@@ -40,10 +40,10 @@ struct SurfacePart {
 };
 
 struct SurfaceDivision {
-  Outcome outcome = Outcome::done;  ///< as `mesh` has it
+  Outcome outcome = Outcome::done;  ///< as of `mesh`
   std::string message;              ///< one sentence unless it is done
   std::vector<Defect> defects;
-  std::vector<SurfacePart> parts;  ///< as many as asked for, or fewer if the surface is too coarse
+  std::vector<SurfacePart> parts;  ///< as many as requested, or fewer if the surface is too coarse
   int interface_marker = 0;        ///< larger than every facet marker
 };
 
@@ -61,8 +61,9 @@ template <std::same_as<Surface> Owner>
 }
 
 /// Gives the vertices of the parts their numbers in the whole, one part after the other. The places of the
-/// surface come first, numbered as in a mesh of it. All other vertices follow as they come. Vertices at the
-/// same place of the surface or of an interface become one. Memory grows with the surface and the interfaces.
+/// surface come first, numbered as in a mesh of it. All other vertices follow in the order of the parts.
+/// Vertices at the same place of the surface or of an interface become one. Memory grows with the surface and
+/// the interfaces.
 class HOLDFAST_API Joiner {
  public:
   /// `surface` is the divided surface; `interface_marker` comes from its division.
@@ -72,7 +73,7 @@ class HOLDFAST_API Joiner {
   Joiner& operator=(Joiner&&) noexcept;
 
   struct Numbered {
-    std::vector<std::uint64_t> vertices;  ///< numbers in the whole, one a vertex of the part
+    std::vector<std::uint64_t> vertices;  ///< by vertex of the part, its number in the whole
     std::vector<Index> fresh;  ///< vertices that neither the surface nor an earlier part has, in order
   };
   /// Adds the next part. Its facets carry their markers.

@@ -35,7 +35,7 @@ enum class Keep {
   automatic,  ///< winding number where the surface is consistently oriented, else every bounded region
   bounded,    ///< every bounded region
   winding,    ///< bounded regions of non-zero winding number
-  box,        ///< everything out to an enclosing box
+  box,        ///< everything up to an enclosing box
 };
 
 /// A region to number: the region that holds `where` gets `id`.
@@ -43,7 +43,7 @@ using RegionSeed = Surface::RegionSeed;
 
 /// How long edges should be, for field points. The smallest of all limits counts.
 struct Sizes {
-  /// The largest size anywhere; 0: as the surface has it. If large triangles or thin walls leave a region too
+  /// The largest size anywhere; 0: that of the surface. If large triangles or thin walls leave a region too
   /// few elements, the region gets a smaller size, at least half of this one (Report::Field::smaller_sizes).
   double size = 0;
   /// How fast sizes grow inward, per unit of length, 0 to 1. They start at the surface's vertices, whose
@@ -53,13 +53,13 @@ struct Sizes {
   /// Whether sizes inside may grow beyond those of the surrounding surface. If not, they lie between those
   /// sizes.
   bool grow = true;
-  /// One a vertex of the complex, or empty. Replaces the size that the vertex's edges ask for; 0 keeps that
-  /// size. Of several vertices at one place the smallest counts.
+  /// One per vertex of the complex, or empty. Replaces the size that the vertex's edges ask for; 0 keeps that
+  /// size. The smallest of several vertices at one place counts.
   std::vector<double> vertex_sizes = {};
   /// The largest size at a point; a value that is not positive is no limit. Called often.
   std::function<double(const Point&)> field = {};
-  /// The same for many points at a time, one size a point, in fewer calls. Either function is enough; if both
-  /// are set, they must agree.
+  /// The same for many points at a time, one size per point, in fewer calls. Either function is enough; if
+  /// both are set, they must agree.
   std::function<void(std::span<const Point>, std::span<double>)> fields = {};
   /// Sizes that depend on the direction: the metric at a point, in which edges should have length at most 1.
   /// A tensor that is not positive definite is no limit. Called as `field` is. The other sizes limit the
@@ -71,15 +71,15 @@ struct Sizes {
   /// field points by itself.
   bool concurrent = false;
   /// The largest volume of a tetrahedron; 0: no limit. Every tetrahedron keeps the bound, exactly. Tetrahedra
-  /// at triangles that are large beside the bound may be flat for it. Regions may have bounds of their own. A
-  /// mesh of more than 2^30 tetrahedra is refused with std::length_error.
+  /// at triangles that are large compared with the bound may become flat. Regions may have bounds of their
+  /// own. A mesh of more than 2^30 tetrahedra is refused with std::length_error.
   double max_volume = 0;
   /// The largest ratio wanted of a tetrahedron's circumradius to its shortest edge; 0: no limit. A regular
   /// tetrahedron has 0.612. This is an aim: tetrahedra that the surface forces stay, and are counted.
   double max_ratio = 0;
   /// The least number of elements across: every path of inner edges between two walls that face each other
-  /// has at least so many edges (docs/sizes.md says which walls face each other). 0 or 1: no demand; at most
-  /// 100. Edges are split for it, even if flat elements result.
+  /// has at least this many edges (docs/sizes.md says which walls face each other). 0 or 1: no demand; at
+  /// most 100. Edges are split for it, even if flat elements result.
   unsigned layers = 0;
 };
 
@@ -87,8 +87,8 @@ struct Sizes {
 /// the one before.
 enum class Effort { fast, good, best };
 
-/// Progress of a running call. Stages come in order, with two exceptions: validation goes on after Delaunay,
-/// and another attempt, if one is needed, begins with Delaunay again.
+/// Progress of a running call. Stages come in order, with two exceptions: validation continues after
+/// Delaunay, and another attempt, if one is needed, begins with Delaunay again.
 struct Progress {
   Stage stage;
   double fraction;  ///< of this stage, 0 to 1
@@ -96,16 +96,16 @@ struct Progress {
   double overall = 0;
 };
 
-/// Options of `mesh`. Every default gives the promise.
+/// Options of `mesh`. Every default keeps the promise.
 struct Options : Limits {
   bool flips = true;     ///< recover by flips before partition; if false, partition does all the work
-  bool optimise = true;  ///< after all other stages, better elements by exchanges and moves of Steiner points
+  bool optimise = true;  ///< at the end, improves elements by exchanges and moves of Steiner points
   /// Also adds a few points for elements that would otherwise be flat. If false, elements may be as flat as
   /// the surface's vertices and the forced points make them. Field points, for `sizes`, do not depend on
   /// this.
   bool add_points = true;
-  /// With sizes, field points are added, which make the whole volume fit to compute with. Without sizes, only
-  /// the points that the surface forces are added.
+  /// With sizes, field points are added, which make the whole volume suitable for computation. Without sizes,
+  /// only the points that the surface forces are added.
   std::optional<Sizes> sizes;
   Effort effort = Effort::good;  ///< for `sizes`
   Keep keep = Keep::automatic;
@@ -114,11 +114,11 @@ struct Options : Limits {
   std::vector<RegionSeed> regions;
   bool drop_outside = false;  ///< facets outside every kept region are dropped instead of refused
   /// Ends the call after this stage and returns the mesh so far, exact vertices rounded. Before `classify`
-  /// that is every tetrahedron of the enclosing box, as region 0, with the facets and segments that stand.
+  /// that is every tetrahedron of the enclosing box, as region 0, with the facets and segments present.
   std::optional<Stage> stop_after;
   LayingOrder order = LayingOrder::random;  ///< of the constraints laid by partition and elimination
   std::uint64_t seed = 1;                   ///< of the random orders
-  unsigned threads = 1;                     ///< 0: all there are; the result is the same
+  unsigned threads = 1;                     ///< 0: all available; the result is the same
   bool neighbours = false;                  ///< fills `Result::neighbours`
   /// Called every 20 ms or so from the calling thread; returns false to cancel. What it throws ends the call.
   std::function<bool(const Progress&)> progress;
@@ -147,7 +147,7 @@ struct Report {
   struct Optimised {
     std::size_t exchanges = 0;  ///< of tetrahedra for better ones
     std::size_t moves = 0;      ///< of Steiner points
-    std::size_t points = 0;     ///< Steiner points added where a tetrahedron would have stayed flat
+    std::size_t points = 0;     ///< Steiner points added where a tetrahedron would stay flat
   } optimised;
   /// Shape of the elements of a volume with field points.
   struct Shape {
@@ -201,10 +201,10 @@ struct Report {
   } field;
   /// What was done for `Sizes::max_volume` and `max_ratio`; all zero without them.
   struct Bounds {
-    std::size_t points = 0;        ///< added for the volume alone, after all else
+    std::size_t points = 0;        ///< added only for the volume, after all else
     double fullest = 0;            ///< the largest volume of a tetrahedron over its bound: at most 1
     std::size_t flat = 0;          ///< tetrahedra at these points with a dihedral angle below 10 degrees
-    std::size_t ratio_points = 0;  ///< added for the ratio alone
+    std::size_t ratio_points = 0;  ///< added only for the ratio
     double worst_ratio = 0;
     std::size_t above_ratio = 0;  ///< tetrahedra with a larger ratio than was asked for
   } bounds;
@@ -269,10 +269,10 @@ using Neighbours = std::array<Index, 4>;
 struct Result {
   Outcome outcome = Outcome::done;
   Volume volume;                            ///< empty unless `outcome` is done or not_representable
-  std::vector<FacetRegions> facet_regions;  ///< one a facet of `volume`; empty if stopped before `classify`
+  std::vector<FacetRegions> facet_regions;  ///< one per facet of `volume`; empty if stopped before `classify`
   Report report;
   std::vector<Defect> defects;
-  std::vector<Warning> warnings;  ///< where the outcome is done or not_representable
+  std::vector<Warning> warnings;  ///< if the outcome is done or not_representable
   /// What `vertex_map` gives for the complex; with a volume only.
   std::vector<std::int64_t> vertex_map;
   /// For parts pasted together (holdfast/paste.h): markers of the volume's facets that stand for several
@@ -308,7 +308,7 @@ template <std::same_as<Surface> Owner>
 
 struct DiagnoseOptions : Limits {
   std::size_t most = SIZE_MAX;  ///< bounds the number of defects
-  unsigned threads = 1;         ///< 0: all there are; the result is the same
+  unsigned threads = 1;         ///< 0: all available; the result is the same
   ProgressFunction progress = {};
 };
 
@@ -321,7 +321,7 @@ struct DiagnoseOptions : Limits {
 
 struct DelaunayOptions : Limits {
   std::uint64_t seed = 1;  ///< decides how cospherical points are connected, and the order of the tetrahedra
-  unsigned threads = 1;    ///< 0: all there are; the result is the same
+  unsigned threads = 1;    ///< 0: all available; the result is the same
   ProgressFunction progress = {};
 };
 
@@ -334,8 +334,8 @@ struct DelaunayOptions : Limits {
 [[nodiscard]] HOLDFAST_API std::vector<Tetrahedron> delaunay(std::span<const Point> points,
                                                              std::uint64_t seed = 1, unsigned threads = 1);
 
-/// Which tetrahedra share a face, one entry a tetrahedron. A face of more than two tetrahedra, or a face that
-/// one tetrahedron has twice, gives no neighbours; no mesh has such faces. Any indices are accepted.
+/// Which tetrahedra share a face, one entry per tetrahedron. A face of more than two tetrahedra, or a face
+/// that one tetrahedron has twice, gives no neighbours; no mesh has such faces. Any indices are accepted.
 [[nodiscard]] HOLDFAST_API std::vector<Neighbours> neighbours(std::span<const Tetrahedron> tetrahedra);
 
 /// Version of the library that runs, "major.minor.patch"; version.h has that of the headers.

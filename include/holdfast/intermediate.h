@@ -12,8 +12,8 @@ namespace holdfast {
 
 /// Which of the missing segments is laid first, and then which of the missing facets (paper §2.4).
 enum class LayingOrder {
-  given,    ///< as the input numbers facets and segments; sides of facets by their vertices
-  random,   ///< any order, each as likely
+  given,    ///< by number in the input; sides of facets by their vertices
+  random,   ///< any order with equal probability
   halving,  ///< the middle one of the given order, those in the middle of both halves, and so on
 };
 [[nodiscard]] HOLDFAST_API const char* name(LayingOrder order);

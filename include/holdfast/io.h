@@ -47,10 +47,11 @@ struct ReadOptions : Limits {
 ///
 /// .off, .stl, .obj, .ply, .3mf, .amf, .gltf, .glb, .wrl (VRML), .ts (GOCAD), .mesh, .meshb (GMF), .poly,
 /// .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh (1, 2.x, 3, 4.0, 4.1), ASCII and binary where the format
-/// has both; each also packed by gzip (.stl.gz). Lengths are in the file's own unit.
-/// - Coordinates keep their bits, -0 and numbers that are not finite included (`diagnose` reports them).
+/// has both; each also compressed by gzip (.stl.gz). Lengths are in the file's own unit.
+/// - Coordinates keep their bits, including -0 and numbers that are not finite (`diagnose` reports them).
 /// - Vertices keep their indices, including vertices with identical coordinates (`mesh` and all else count
-///   these as one, see Complex). But .stl has no indices: its distinct vertices are numbered as they come.
+///   these as one, see Complex). But .stl has no indices: its distinct vertices are numbered in the order of
+///   the file.
 /// - A polygon of two corners is a segment (.off, .poly, .smesh, .ply). A polygon of one corner is just its
 ///   vertex. A convex polygon of more than three corners is fanned. Other polygons become constrained
 ///   Delaunay triangles, which do not depend on the first corner; such polygons must lie in a plane (see
@@ -73,10 +74,10 @@ struct ReadOptions : Limits {
 [[nodiscard]] HOLDFAST_API Surface read_surface(const std::filesystem::path& path, std::string_view format);
 
 /// Reads a volume: .vtu, .vtk, .mesh, .meshb, .msh, .node, .ele, .face, .edge (TetGen) side by side, and the
-/// other formats of `readable_volume_formats` (docs/formats.md); each also packed by gzip.
+/// other formats of `readable_volume_formats` (docs/formats.md); each also compressed by gzip.
 ///
 /// Region ids are references (.mesh, .meshb), the cell array "region" (.vtu, .vtk), physical or else
-/// elementary tags (.msh), the first attribute (.ele); 0 where there is none. Vertices of .msh are ordered by
+/// elementary tags (.msh), the first attribute (.ele), or otherwise 0. Vertices of .msh are ordered by
 /// node tag. Indices are checked to be in range. Positive volumes and the rest of the promise are not checked
 /// (see `check`). `remarks` receives what the file holds and a volume does not. Throws FileError.
 [[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path,
@@ -84,14 +85,14 @@ struct ReadOptions : Limits {
                                               std::vector<Remark>* remarks = nullptr);
 [[nodiscard]] HOLDFAST_API Volume read_volume(const std::filesystem::path& path, std::string_view format);
 
-/// Reads points: an .xyz text (three numbers a line; the rest of the line is ignored), or the vertices of any
-/// file that `read_surface` reads. Throws FileError.
+/// Reads points: an .xyz text (three numbers per line; the rest of the line is ignored), or the vertices of
+/// any file that `read_surface` reads. Throws FileError.
 [[nodiscard]] HOLDFAST_API std::vector<Point> read_points(const std::filesystem::path& path,
                                                           const ReadOptions& options = {});
 [[nodiscard]] HOLDFAST_API std::vector<Point> read_points(const std::filesystem::path& path,
                                                           std::string_view format);
 
-/// Concatenates surfaces into one; indices count on. If surface i has no facet markers, its facets get the
+/// Concatenates surfaces into one; indices are shifted. If surface i has no facet markers, its facets get the
 /// next free number, from 1, and the name `names[i]` if there is one. A marker that an earlier surface uses
 /// under another name gets the next free number, too, and a remark says so. If surfaces use one name for
 /// different markers, `names[i]` and a dot are put before the name. If a region has several names, the first
@@ -101,7 +102,7 @@ struct ReadOptions : Limits {
 
 /// The surface of a volume, for meshing it again: its facets and segments with their markers and names, then
 /// all other faces on its boundary and between regions, seen from outside. Only the vertices that these use
-/// are kept, in their order. Throws std::invalid_argument unless there are no regions or one a tetrahedron.
+/// are kept, in their order. Throws std::invalid_argument unless there are no regions or one per tetrahedron.
 [[nodiscard]] HOLDFAST_API Surface surface_of(const Volume& volume);
 
 struct WriteOptions : Limits {
@@ -109,9 +110,9 @@ struct WriteOptions : Limits {
   bool legacy_msh = false;  ///< .msh: version 2.2 instead of 4.1
   bool binary = false;      ///< .msh: numbers as bytes
   bool one_file = false;    ///< .vtu, .xdmf: facets and segments in the same file, not in a second one
-  bool gzip = false;        ///< OpenFOAM: files packed, with names that end with .gz
+  bool gzip = false;        ///< OpenFOAM: compresses files, whose names then end with .gz
   bool shells = false;      ///< .inp: facets as shell elements, too
-  unsigned threads = 1;     ///< for compression, 0: all there are; the file is the same
+  unsigned threads = 1;     ///< for compression; 0: all available; the file is the same
   std::string format;       ///< overrides the extension
   ProgressFunction progress = {};
 };
@@ -127,8 +128,8 @@ struct WriteOptions : Limits {
 HOLDFAST_API void write_volume(const std::filesystem::path& path, const Volume& volume,
                                const WriteOptions& options = {});
 
-/// What a file of `write_volume` does not hold as the volume has it, so that other programs or `read_volume`
-/// get something else. Empty for .vtu, .vtk, .mesh, .meshb and .node, which hold everything. In .msh, Gmsh
+/// What a file of `write_volume` cannot hold unchanged, so that other programs or `read_volume` get something
+/// else. Empty for .vtu, .vtk, .mesh, .meshb and .node, which hold everything. In .msh, Gmsh
 /// does not accept negative ids as ids, and version 4.1 changes the order of entities.
 [[nodiscard]] HOLDFAST_API std::vector<Remark> not_held(const std::filesystem::path& path,
                                                         const Volume& volume,
@@ -139,8 +140,8 @@ HOLDFAST_API void write_volume(const std::filesystem::path& path, const Volume& 
 struct SizeField {
   std::vector<Point> vertices;
   std::vector<Tetrahedron> tetrahedra;
-  std::vector<double> sizes;    ///< one a vertex, or none
-  std::vector<Metric> metrics;  ///< one a vertex, if there are no sizes
+  std::vector<double> sizes;    ///< one per vertex, or none
+  std::vector<Metric> metrics;  ///< one per vertex, if there are no sizes
 };
 
 /// Reads a size field: .mesh or .meshb and the .sol or .solb beside it (or one of these), .vtu with a point

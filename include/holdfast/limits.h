@@ -1,4 +1,4 @@
-// Holdfast: how to bound, stop and watch a call.
+// Holdfast: limits, cancellation and progress of calls.
 #pragma once
 
 #include <atomic>

@@ -21,7 +21,7 @@ namespace holdfast {
 
 // The others are declared beside their enumerations, as `name(Stage)` is in holdfast/holdfast.h.
 
-/// "unknown" for a value that is none of the enumeration's.
+/// "unknown" for a value outside the enumeration.
 [[nodiscard]] HOLDFAST_API const char* name(Outcome outcome);
 [[nodiscard]] HOLDFAST_API const char* name(Keep keep);
 [[nodiscard]] HOLDFAST_API const char* name(Effort effort);
@@ -31,7 +31,7 @@ namespace holdfast {
 [[nodiscard]] HOLDFAST_API const char* name(Overlap overlap);
 [[nodiscard]] HOLDFAST_API const char* name(Scalar scalar);
 
-/// The value with a name, or nothing: `from_name<Keep>("winding")`. For every enumeration that has names.
+/// The value with a name, or nullopt: `from_name<Keep>("winding")`. For every enumeration that has names.
 template <class Enum>
 [[nodiscard]] std::optional<Enum> from_name(std::string_view text);
 

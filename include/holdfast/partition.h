@@ -23,7 +23,7 @@ namespace holdfast {
 /// other parts that share a vertex with them.
 struct MeshPiece {
   /// Own tetrahedra first, then ghosts; vertices of own tetrahedra first, then those of ghosts alone, each in
-  /// the order of the whole. Facets and segments are those on own tetrahedra. Piece 0 also has all that is on
+  /// the order of the whole. Facets and segments are those on own tetrahedra. Piece 0 also has everything on
   /// no tetrahedron. Elements are of first order.
   Volume volume;
   std::size_t own_tetrahedra = 0, own_vertices = 0;
@@ -37,7 +37,7 @@ struct MeshPiece {
   /// vertices' numbers in the whole.
   struct Interface {
     Index other;
-    std::vector<Triangle> faces;  ///< seen from outside the own tetrahedron, the lowest number first
+    std::vector<Triangle> faces;  ///< oriented outwards from the own tetrahedron, the lowest number first
   };
   std::vector<Interface> interfaces;  ///< by the other part
 };
@@ -52,7 +52,7 @@ using PieceLoader = std::function<MeshPiece(std::size_t)>;
                                                  std::size_t parts);
 
 /// The parts of a divided surface (divide.h), unchanged, as pieces of the volume that `join_parts` returns.
-/// Tetrahedra count on from part to part. Memory held between calls grows with the surface and the
+/// Tetrahedra are numbered part by part. Memory held between calls grows with the surface and the
 /// interfaces.
 [[nodiscard]] HOLDFAST_API PieceLoader joined_pieces(const Complex& surface, std::size_t parts,
                                                      const PartLoader& load, int interface_marker);

@@ -1,7 +1,7 @@
 // Holdfast: pastes parts that touch.
 //
-// Several surfaces, each of which encloses a part, become one conformal surface: a face that parts share is
-// there once. `mesh` fills this surface with one region a part. See docs/pasting.md.
+// Several surfaces, each of which encloses a part, become one conformal surface: a face that parts share
+// occurs once. `mesh` fills this surface with one region per part. See docs/pasting.md.
 #pragma once
 
 #include "holdfast/export.h"
@@ -11,9 +11,9 @@
 
 namespace holdfast {
 
-/// Which part gets space that several parts hold.
+/// Which part gets space that several parts contain.
 enum class Overlap {
-  refuse,  ///< none: parts that overlap are `Outcome::invalid_input`
+  refuse,  ///< none of them: parts that overlap are `Outcome::invalid_input`
   first,   ///< the first of them
   last,    ///< the last of them
   fresh,   ///< a new region with the next free id, one for each set of parts
@@ -21,7 +21,7 @@ enum class Overlap {
 
 struct PasteOptions : Limits {
   /// Whether facets that touch or cross are cut so that they fit. If not, only triangles that several parts
-  /// have in common are merged. All else stays as it is, valid or not.
+  /// have in common are merged. Everything else stays as it is, valid or not.
   bool cut = true;
   /// Vertices within this distance of another part are put on that part: first on its vertices, then on its
   /// sides, then on its facets. Earlier parts stay where they are. No vertex moves further than this.
@@ -30,16 +30,16 @@ struct PasteOptions : Limits {
   /// Whether to find out if parts overlap. This takes a mesh. `mesh` of the result does so in any case.
   bool judge = true;
   std::vector<std::string> labels = {};  ///< of the parts in messages, instead of their names
-  Keep keep = Keep::automatic;           ///< what each part holds by itself; not Keep::box
-  unsigned threads = 1;                  ///< 0: all there are; the result is the same
+  Keep keep = Keep::automatic;           ///< what each part contains by itself; not Keep::box
+  unsigned threads = 1;                  ///< 0: all available; the result is the same
   ProgressFunction progress = {};
 };
 
 /// The regions of a part: their ids, seeds and holes.
 struct PastedPart {
   std::string name;               ///< for messages
-  std::size_t first_vertex = 0;   ///< counted through all parts in turn
-  std::size_t first_facet = 0;    ///< counted through all parts in turn
+  std::size_t first_vertex = 0;   ///< in the numbering of all parts together
+  std::size_t first_facet = 0;    ///< in the numbering of all parts together
   int id = 0;                     ///< id of regions without a seed
   std::vector<RegionSeed> seeds;  ///< ids are those of the pasted regions
   std::vector<Point> holes;
@@ -64,8 +64,8 @@ struct PasteResult : RepairResult {
   std::vector<PastedPart> parts;
   std::vector<Index> part_of_facet;   ///< of the input
   std::vector<PartOverlap> overlaps;  ///< deepest first; only with `PasteOptions::judge`
-  std::vector<PartApart> apart;       ///< the same
-  Overlap overlap = Overlap::refuse;  ///< as asked for
+  std::vector<PartApart> apart;       ///< only with `PasteOptions::judge`, too
+  Overlap overlap = Overlap::refuse;  ///< as in the options
   /// Parts within this distance touch: the tolerance, or the rounding of the coordinates.
   double gap = 0;
   std::size_t shared_facets = 0;  ///< facets of the surface that several parts share
@@ -115,9 +115,9 @@ struct PastedVolumes {
                                                const PasteOptions& options = {},
                                                std::span<const std::string> names = {});
 
-/// Fills the parts with tetrahedra. Every region belongs to one part. Regions that no part holds stay empty.
+/// Fills the parts with tetrahedra. Every region belongs to one part. Regions in no part stay empty.
 ///
-/// `options.keep` says what each part holds by itself. With Keep::box, parts are kept as with
+/// `options.keep` says what each part contains by itself. With Keep::box, parts are kept as with
 /// Keep::automatic, and the rest of the box is a region, too. A seed in the options takes precedence over the
 /// parts' own. Parts that overlap are `invalid_input`. Throws as `mesh` of a complex does.
 [[nodiscard]] HOLDFAST_API Result mesh(const PasteResult& pasted, const Options& options = {});

@@ -28,7 +28,7 @@ struct Plane {
   std::vector<PlanePoint> points;
   std::vector<Segment> segments;
   std::vector<int> point_markers, segment_markers;
-  std::vector<PlanePoint> holes;  ///< the region of each is left out; a hole in no region has no effect
+  std::vector<PlanePoint> holes;  ///< the region of each is omitted; a hole in no region has no effect
   struct Seed {
     PlanePoint where;
     int id;
@@ -36,38 +36,38 @@ struct Plane {
   };
   std::vector<Seed> regions;    ///< the region of each gets its id
   int base = 0;                 ///< the number of the first point and segment in the file, for messages
-  std::vector<Remark> remarks;  ///< what the file holds besides
+  std::vector<Remark> remarks;  ///< what the file also has
 };
 
 /// How missing segments are recovered.
 enum class PlaneMethod {
   ears,       ///< §2.1: corners are cut off the outlines one by one
-  swaps,      ///< §2.2: edges of the Delaunay triangles are swapped at random until the segments stand
+  swaps,      ///< §2.2: edges of the Delaunay triangles are swapped at random until the segments exist
   partition,  ///< §2.3: points are added where segments cross Delaunay edges, and removed by swaps
 };
 [[nodiscard]] HOLDFAST_API const char* name(PlaneMethod method);
 
 /// Which corner the method ears takes.
 enum class PlaneEars {
-  first,  ///< any that can be cut off
-  best,   ///< of those, the one whose triangle is closest to a regular one
-  join,   ///< any; if its triangle contains other vertices, its side is joined to the nearest of them, which
-          ///< splits the polygon
+  first,  ///< any corner that can be cut off
+  best,   ///< the corner whose triangle is closest to a regular one
+  join,   ///< any corner; if its triangle contains other vertices, its side is joined to the nearest of them,
+          ///< which splits the polygon
 };
 [[nodiscard]] HOLDFAST_API const char* name(PlaneEars ears);
 
 /// Where a run may be stopped early.
 enum class PlaneStage {
   delaunay,   ///< swaps and partition: the Delaunay triangles of all points
-  partition,  ///< partition: every segment stands, in pieces, and all added points are there
-  swap,       ///< swaps: after some number of them
+  partition,  ///< partition: every segment exists, in pieces, with all added points
+  swap,       ///< swaps: after a given number of them
 };
 [[nodiscard]] HOLDFAST_API const char* name(PlaneStage stage);
 
 struct PlaneOptions : Limits {
   PlaneMethod method = PlaneMethod::swaps;
   PlaneEars ears = PlaneEars::first;
-  /// Partition: added points are removed when all segments stand. By default they are removed after each
+  /// Partition: added points are removed when all segments exist. By default they are removed after each
   /// segment, which takes fewer points.
   bool partition_first = false;
   /// Finally swaps edges (Lawson) until the triangles are constrained Delaunay.
@@ -76,7 +76,7 @@ struct PlaneOptions : Limits {
   bool hull = false;
   /// Refinement (Ruppert): points are added until no edge is longer than `size` (0: no limit), no triangle is
   /// larger than its region's Seed::area, and no triangle has an angle below `angle` degrees, except at small
-  /// angles between segments and across from them. If `size` or `angle` is given, the triangles are
+  /// angles between segments and opposite them. If `size` or `angle` is given, the triangles are
   /// constrained Delaunay. Refinement ends for every input if the angle is at most 26.45 degrees (Miller,
   /// Pav, Walkington 2003), and in practice up to about 33. If only a size is given, the angle is 20.
   double size = 0;
@@ -86,7 +86,7 @@ struct PlaneOptions : Limits {
   /// Largest number of points that refinement adds. It stops there, and the report says so.
   std::size_t max_points = 10'000'000;
   std::optional<PlaneStage> stop_after;
-  std::size_t stop_after_swaps = 0;  ///< for PlaneStage::swap: how many of them
+  std::size_t stop_after_swaps = 0;  ///< for PlaneStage::swap: the number of swaps
   /// Order of missing segments, for swaps and partition. By default each segment is near the one before it.
   std::optional<LayingOrder> order;
   std::uint64_t seed = 1;  ///< of the random orders
@@ -97,7 +97,7 @@ struct PlaneOptions : Limits {
 struct PlaneReport {
   std::size_t points = 0, segments = 0, holes = 0;  ///< of the input
   std::size_t missing_segments = 0;                 ///< in the Delaunay triangles; 0 for ears
-  std::size_t swaps = 0;                            ///< until the segments stood
+  std::size_t swaps = 0;                            ///< until the segments existed
   std::size_t delaunay_swaps = 0;                   ///< until the triangles were constrained Delaunay
   std::size_t partition_points = 0;                 ///< added, and removed, by partition
   std::size_t most_partition_points = 0;            ///< of these, the most at one time
@@ -105,15 +105,15 @@ struct PlaneReport {
   std::size_t joined = 0;  ///< of these, those made with the reflex vertex nearest to a side
   std::size_t links = 0;   ///< between parts of an outline
   std::size_t triangles = 0, regions = 0;
-  std::size_t field_points = 0;    ///< added by refinement, on no segment
-  std::size_t segment_points = 0;  ///< added by refinement, on segments
-  std::size_t small_angles = 0;    ///< triangles below the bound at small angles of the input, or across from
-                                   ///< them
-  std::size_t small_angles_left = 0;      ///< other triangles below the bound: at kept segments, or after
-                                          ///< `max_points`
-  std::size_t large_left = 0;             ///< triangles above the limits of size, for the same reasons
-  bool capped = false;                    ///< refinement stopped at `max_points`
-  double least_angle = 0;                 ///< of all triangles, in degrees, computed in doubles
+  std::size_t field_points = 0;       ///< added by refinement, on no segment
+  std::size_t segment_points = 0;     ///< added by refinement, on segments
+  std::size_t small_angles = 0;       ///< triangles below the bound at small angles of the input, or opposite
+                                      ///< them
+  std::size_t small_angles_left = 0;  ///< other triangles below the bound: at kept segments, or after
+                                      ///< `max_points`
+  std::size_t large_left = 0;         ///< triangles above the limits of size, for the same reasons
+  bool capped = false;                ///< refinement stopped at `max_points`
+  double least_angle = 0;             ///< of all triangles, in degrees, computed in doubles
   std::map<std::string, double> seconds;  ///< by stage, and "total"
 };
 
@@ -121,10 +121,10 @@ struct PlaneReport {
 /// points.
 struct PlaneMesh {
   std::vector<PlanePoint> points;
-  std::vector<Triangle> triangles;  ///< corners turn left
-  std::vector<int> regions;         ///< one a triangle: that of a seed, or the next free number from 1
+  std::vector<Triangle> triangles;  ///< counterclockwise
+  std::vector<int> regions;         ///< one per triangle: that of a seed, or the next free number from 1
   std::vector<Segment> segments;
-  std::vector<int> point_markers, segment_markers;  ///< empty, or one each
+  std::vector<int> point_markers, segment_markers;  ///< empty, or one per point and per segment
   /// For planes in space: the points, those of the input bit for bit. `points` is then empty.
   std::vector<Point> in_space = {};
   int base = 0;  ///< number of the first point and of the first triangle in .node and .ele
@@ -138,7 +138,7 @@ struct PlaneResult {
   /// 0.
   std::vector<Defect> defects;
   std::string message;        ///< one sentence when the outcome is not done
-  Intermediate intermediate;  ///< if `PlaneOptions::stop_after` is set; of segments alone
+  Intermediate intermediate;  ///< if `PlaneOptions::stop_after` is set; only of segments
 };
 
 /// Triangulates every region that segments separate from the outside, except the regions of holes, and keeps
@@ -158,10 +158,10 @@ struct PlanesInSpace {
     std::vector<Index> numbers;  ///< of the plane's points in the file
     std::size_t axis = 2;
     Point normal{};       ///< of the mean plane, of any length
-    bool turned = false;  ///< seen so, its first polygon turns right, and its triangles must, too
+    bool turned = false;  ///< its first polygon, and so its triangles, are clockwise in this projection
   };
-  std::vector<Part> parts;      ///< one part if all lies in one plane, else one for each polygon or facet
-  std::vector<Remark> remarks;  ///< what the file holds besides
+  std::vector<Part> parts;  ///< one part if everything is coplanar, otherwise one for each polygon or facet
+  std::vector<Remark> remarks;  ///< what the file also has
 };
 
 /// Triangulates each plane and returns the triangles of all planes together, oriented as their polygons.
@@ -175,7 +175,7 @@ struct PlanesInSpace {
 [[nodiscard]] HOLDFAST_API std::vector<Defect> diagnose(const Plane& plane, std::size_t most = SIZE_MAX);
 
 /// Reads .poly (points, segments, holes and regions in Triangle's format; the points may be in a .node beside
-/// it) or .node (points alone). Throws FileError.
+/// it) or .node (only points). Throws FileError.
 [[nodiscard]] HOLDFAST_API Plane read_plane(const std::filesystem::path& path,
                                             const ReadOptions& options = {});
 

@@ -30,22 +30,22 @@ enum class Rung {
   none,     ///< no point was rounded
   nearest,  ///< each is the double nearest to its exact place
   again,    ///< facets that crossed after that were cut and rounded again
-  coarser,  ///< what still crossed was joined where some last bits apart: new points, and sides led through
+  coarser,  ///< what still crossed was joined if some last bits apart: new points, and sides led through
             ///< vertices
   snapped,  ///< the same with vertices of the input: `moved` lists them
 };
 [[nodiscard]] HOLDFAST_API const char* name(Rung rung);
 
 struct RepairOptions : Limits {
-  /// First of all, vertices within this distance of each other become one, and vertices within it of a side
+  /// First, vertices within this distance of each other become one, and vertices within it of a side
   /// or facet are put on that side or facet. Two sides with one facet each get a vertex where they pass each
   /// other within this distance. No vertex moves further than this.
   double weld = 0;
   /// After that, facets that overlap at a distance of at most this get the same triangles where they overlap.
   /// Vertices stay. Where sides cross above each other, a new vertex is put on the larger facet. Meant for
-  /// some last bits: between sheets as near as that, a mesh may have no doubles.
+  /// a few last bits: between sheets that close, a mesh may have no doubles.
   double join = 0;
-  /// Closes holes whose border has at most so many sides, by facets without parents. No value: holes stay.
+  /// Closes holes whose border has at most this many sides, by facets without parents. No value: holes stay.
   std::optional<std::size_t> fill_holes = {};
   /// Drops facets with material on both sides or on neither. Material is what `Keep::automatic` keeps of each
   /// connected component of the surface by itself.
@@ -54,14 +54,14 @@ struct RepairOptions : Limits {
   /// quadratic in size.
   std::size_t most_points = 100'000'000;
   bool exact = false;    ///< fills `RepairResult::exact`; not with `join`, which rounds earlier
-  unsigned threads = 1;  ///< 0: all there are; the result is the same
+  unsigned threads = 1;  ///< 0: all available; the result is the same
   ProgressFunction progress = {};
 };
 
 /// Why a facet of the input is in no facet of the output.
 enum class DropReason {
-  not_finite,  ///< a corner is NaN or infinite, or its index is that of no vertex
-  no_area,     ///< its corners are on one line
+  not_finite,  ///< a corner is NaN or infinite, or its index is out of range
+  no_area,     ///< its corners are collinear
   vanished,    ///< after rounding, none of its parts has area
   inner,       ///< `RepairOptions::unite`: material on both sides or on neither
 };
@@ -69,7 +69,7 @@ enum class DropReason {
 
 /// Why a hole that should be closed stays open.
 enum class OpenReason {
-  too_many_sides,  ///< more than were asked for
+  too_many_sides,  ///< more than the options allow
   meets_surface,   ///< its filling would meet the surface or another filling outside its border
   no_filling,      ///< no filling was found: the hole is not plane and has more than 600 sides, or encloses
                    ///< no area
@@ -79,7 +79,7 @@ enum class OpenReason {
 struct RepairReport {
   std::size_t vertices = 0, facets = 0, segments = 0;  ///< of the input
   std::size_t pairs = 0;                               ///< of elements that did not fit together
-  std::size_t sheets = 0;                 ///< sets of facets of one plane that were triangulated anew
+  std::size_t sheets = 0;                 ///< sets of coplanar facets that were triangulated again
   std::size_t points = 0;                 ///< new points of the exact arrangement
   std::size_t rounds = 0;                 ///< rounds of cutting and rounding
   Rung rung = Rung::none;                 ///< the last rung that was needed

@@ -13,7 +13,7 @@ namespace holdfast {
 /// Gives each edge of a volume's tetrahedra, facets and segments a node in its middle, rounded to doubles
 /// (`Volume::mid_nodes`). Existing nodes are replaced. Nodes are numbered in the order of the edges in the
 /// tetrahedra, then in the other elements of the volume. Throws std::out_of_range for indices of no vertex,
-/// std::length_error where nodes are beyond 32 bits, and Interrupted for its limits.
+/// std::length_error if nodes exceed 32 bits, and Interrupted for its limits.
 HOLDFAST_API void add_mid_nodes(Volume& volume, const Limits& limits = {});
 
 /// The tetrahedra of a volume of second order whose Jacobian is not proven positive everywhere, ascending.

@@ -15,14 +15,14 @@ struct Statistics {
     std::string name;       ///< empty: none
     std::size_t count = 0;  ///< of tetrahedra, facets, segments or vertices
     double measure = 0;     ///< volume, area or length; 0 for vertices
-    double area = 0;        ///< of a region: its boundary, also that towards other regions
+    double area = 0;        ///< of a region: its boundary, including interfaces with other regions
   };
   std::size_t vertices = 0;
   std::size_t unused_vertices = 0;  ///< on no tetrahedron, facet or segment
   std::size_t segments = 0, facets = 0, tetrahedra = 0;
   std::size_t mid_nodes = 0;  ///< of a volume of second order
   std::size_t edges = 0;      ///< distinct edges of tetrahedra, facets and segments
-  Point low{}, high{};        ///< the box round the vertices that are finite
+  Point low{}, high{};        ///< the box around the finite vertices
   double shortest_edge = 0, mean_edge = 0, longest_edge = 0;
   double area = 0;  ///< of the facets
   /// Volume of the tetrahedra. For a `closed` surface: the volume that it bounds, negative if it is turned

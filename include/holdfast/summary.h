@@ -53,10 +53,11 @@ struct DefectGroup {
 struct DefectSummary {
   std::vector<DefectGroup> groups;  ///< by cause; none is empty
   std::vector<Gap> gaps;            ///< unwelded vertices and cracks, widest first
-  std::vector<Segment> border;      ///< sides of one triangle alone
+  std::vector<Segment> border;      ///< sides of only one triangle
   std::size_t parts = 0;            ///< components of the triangles
   /// Number of bounded regions that the triangles enclose, unless a defect says that triangles do not fit
-  /// together. Exact, and by counting alone: the rank of the triangles' second homology (Alexander duality).
+  /// together. Exact, computed by counting alone: the rank of the triangles' second homology (Alexander
+  /// duality).
   std::optional<std::size_t> enclosed;
 };
 

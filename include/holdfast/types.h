@@ -61,7 +61,7 @@ struct Complex {
   std::span<const int> facet_markers;
   std::span<const int> segment_markers;
   std::span<const int> vertex_markers = {};
-  const Names* names = nullptr;  ///< what the volume's `names` become; null: none
+  const Names* names = nullptr;  ///< copied to the volume's `names`; null: none
 };
 
 /// What a remark is about. The numbers are stable.
@@ -87,9 +87,9 @@ struct Surface {
   std::vector<Point> vertices;
   std::vector<Triangle> facets;
   std::vector<Segment> segments;
-  std::vector<int> facet_markers;    ///< empty, or one a facet
-  std::vector<int> segment_markers;  ///< empty, or one a segment
-  std::vector<int> vertex_markers;   ///< empty, or one a vertex
+  std::vector<int> facet_markers;    ///< empty, or one per facet
+  std::vector<int> segment_markers;  ///< empty, or one per segment
+  std::vector<int> vertex_markers;   ///< empty, or one per vertex
   /// Region seeds and hole seeds that some formats carry (.poly, .smesh).
   struct RegionSeed {
     Point where;
@@ -100,7 +100,7 @@ struct Surface {
   };
   std::vector<RegionSeed> regions;
   std::vector<Point> holes;
-  std::vector<Remark> remarks;  ///< what the file holds besides, or in another form
+  std::vector<Remark> remarks;  ///< what the file also has, or has in another form
   Names names = {};
 
   /// A view of this surface, which must outlive it.
@@ -112,14 +112,14 @@ struct Surface {
 
 /// Mid-edge nodes turn straight elements into elements of second order. The corners stay as they are.
 ///
-/// Nodes are numbered behind the vertices of the volume: node k is `points[k - vertices.size()]`, and
+/// Nodes are numbered after the vertices of the volume: node k is `points[k - vertices.size()]`, and
 /// elements that share an edge share its node. Either all edges of the volume have a node, or none.
 struct MidNodes {
   std::vector<Point> points;
   std::vector<std::array<Index, 6>>
-      tetrahedra;                            ///< of edges 01 12 02 03 13 23, one a tetrahedron (VTK's order)
-  std::vector<std::array<Index, 3>> facets;  ///< of edges 01 12 02, one a facet
-  std::vector<Index> segments;               ///< one a segment
+      tetrahedra;  ///< of edges 01 12 02 03 13 23, one per tetrahedron (VTK's order)
+  std::vector<std::array<Index, 3>> facets;  ///< of edges 01 12 02, one per facet
+  std::vector<Index> segments;               ///< one per segment
 
   [[nodiscard]] bool empty() const { return points.empty() && tetrahedra.empty(); }
 };
@@ -130,13 +130,13 @@ struct Volume {
   /// an input without repeated vertices keeps its indices; then the Steiner points.
   std::vector<Point> vertices;
   std::vector<Tetrahedron> tetrahedra;
-  std::vector<int> regions;  ///< region id, one a tetrahedron
+  std::vector<int> regions;  ///< region id, one per tetrahedron
   std::vector<Triangle> facets;
-  std::vector<int> facet_markers;  ///< empty, or one a facet
+  std::vector<int> facet_markers;  ///< empty, or one per facet
   std::vector<Segment> segments;
-  std::vector<int> segment_markers;  ///< empty, or one a segment
-  std::vector<int> vertex_markers;   ///< empty, or one a vertex: 0 for Steiner points
-  /// Empty, or one a vertex: the first input vertex at its place, -1 for an added vertex.
+  std::vector<int> segment_markers;  ///< empty, or one per segment
+  std::vector<int> vertex_markers;   ///< empty, or one per vertex: 0 for Steiner points
+  /// Empty, or one per vertex: the first input vertex at its place, -1 for an added vertex.
   std::vector<std::int64_t> input_vertices;
   Names names = {};
   MidNodes mid_nodes = {};  ///< of a mesh of second order; empty for one of first order

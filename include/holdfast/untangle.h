@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// Steps of untangling. They take turns until no tetrahedron is tangled.
+/// Steps of untangling. They alternate until no tetrahedron is tangled.
 enum class UntangleStep {
   validate,  ///< the connectivity, and the boundary as a surface
   relocate,  ///< vertices one by one, into the kernel of their ball
@@ -18,7 +18,7 @@ enum class UntangleStep {
   smooth,    ///< many vertices at once, with an energy that is infinite for inverted tetrahedra
   refill,    ///< cavities emptied and filled again, as `mesh` fills them
   check,     ///< the result, exactly
-  improve,   ///< better elements, once all are positive; before `check`
+  improve,   ///< of elements, once all are positive; before `check`
 };
 
 /// Name of a step as the command line and the report spell it.
@@ -51,12 +51,12 @@ struct UntangleReport {
       std::size_t below_10_deg = 0, tetrahedra = 0;
     } before, after;
   } improved;
-  std::size_t vertices = 0, tetrahedra = 0;        ///< of the input volume
-  std::size_t free_vertices = 0;                   ///< of these, those that may move
-  std::size_t turned = 0;                          ///< tetrahedra that were listed the other way round
-  std::size_t negative = 0, null = 0;              ///< tetrahedra before, once all are oriented alike
+  std::size_t vertices = 0, tetrahedra = 0;  ///< of the input volume
+  std::size_t free_vertices = 0;             ///< of these, those that may move
+  std::size_t turned = 0;                    ///< tetrahedra that were listed with the opposite orientation
+  std::size_t negative = 0, null = 0;        ///< tetrahedra before, once all are oriented alike
   std::size_t negative_after = 0, null_after = 0;  ///< at the end: 0 for Outcome::done
-  std::size_t moved = 0;                           ///< vertices in another place than before
+  std::size_t moved = 0;                           ///< vertices that have moved
   std::size_t swapped = 0;                         ///< exchanges of tetrahedra
   std::size_t cavities = 0;                        ///< emptied and filled again
   std::size_t added = 0, removed = 0;              ///< vertices, by `improve`, too
@@ -87,8 +87,8 @@ struct UntangleResult {
 /// unchanged: coordinates bit for bit, indices and markers included. Every tetrahedron is strictly positive
 /// in doubles, no two overlap, and each region fills the space that it filled. Other vertices may have moved.
 /// With `refill` some vertices may be new: they take the slots of removed vertices, then come last. A removed
-/// vertex whose slot stays free remains as an unused vertex. A mesh without non-positive tetrahedra comes out
-/// as it came in, unless `improve` is set.
+/// vertex whose slot stays free remains as an unused vertex. A mesh without non-positive tetrahedra is
+/// unchanged, unless `improve` is set.
 ///
 /// Throws std::invalid_argument if arrays of regions or markers have a wrong length or `fixed` is out of
 /// range or `improve` is set without `refill`, std::length_error beyond 2^28 vertices, std::bad_alloc when

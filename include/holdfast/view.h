@@ -1,4 +1,5 @@
-// Holdfast: writes a page to look at: one HTML file that a browser opens without a server or a network.
+// Holdfast: writes a page that shows meshes: one HTML file that a browser opens without a server or a
+// network.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +15,7 @@ namespace holdfast {
 /// A surface or a volume that a page shows. What it points to must outlive the call.
 struct PagePart {
   std::string name;                        ///< its name on the page: a file's name, "before", ...
-  const Volume* volume = nullptr;          ///< shown if there is one; else `complex`
+  const Volume* volume = nullptr;          ///< shown if not null; otherwise `complex`
   Complex complex;                         ///< a surface; indices in it need not be in range
   std::span<const Defect> defects = {};    ///< of `complex`
   const DefectSummary* summary = nullptr;  ///< of `defects`

@@ -117,7 +117,7 @@ class Numbering {
  private:
   static constexpr std::size_t kPollCells = std::size_t{1} << 15;  // some milliseconds' work
 
-  // The number of parts into which so many cells are cut, one part a thread.
+  // The number of parts into which so many cells are cut, one part per thread.
   [[nodiscard]] std::size_t parts_of(std::size_t cells) const {
     constexpr std::size_t kLeastPart = 8192;  // cells that are worth a thread
     return std::clamp<std::size_t>(cells / kLeastPart, 1, threads_.count());

@@ -1,5 +1,5 @@
 // Several threads work on the rounds of the insertion order one by one. A round has phases. Each phase cuts
-// space into slabs with equally many of the remaining points, one a thread, across another axis each time.
+// space into slabs with equally many of the remaining points, one per thread, across another axis each time.
 // Points whose cavity leaves their slab wait for the next phase. When phases do not pay any more, one thread
 // inserts the rest. (Marot, Pellerin, Remacle 2019 cut a space-filling curve instead, and do not wait for the
 // end of a round. Waiting is needed here, because of equal points the first must be the one that is

@@ -13,7 +13,7 @@ namespace holdfast::division {
 /// nothing outside the part.
 struct CutSurface {
   SurfacePart part;
-  std::vector<FacetRegions> sides;  ///< one a facet of `part.surface`
+  std::vector<FacetRegions> sides;  ///< one per facet of `part.surface`
 };
 
 /// One surface for each label, in order. `marker` is the marker of interfaces. Facets on the part's boundary

@@ -28,7 +28,7 @@ class Cavity {
   bool grow(std::mt19937_64& random);
   /// Adds the tetrahedron across the k-th face. Returns false where that is impossible.
   bool grow_across(std::size_t k);
-  /// Adds the tetrahedron across the lowest face where that is possible; `heights` are one a face.
+  /// Adds the tetrahedron across the lowest face where that is possible; `heights` are one per face.
   bool grow_across_lowest(const std::vector<double>& heights);
   /// Adds the whole ball of a Steiner point on the boundary. Returns false, and adds none of it, where that
   /// is impossible.

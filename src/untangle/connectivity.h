@@ -12,7 +12,7 @@ namespace holdfast {
 
 struct Connectivity {
   std::vector<Tetrahedron> tets;  ///< the volume's in order, all turned alike
-  std::vector<int> regions;       ///< one a tetrahedron
+  std::vector<int> regions;       ///< one per tetrahedron
   std::vector<Index> component;   ///< of each tetrahedron: connected through faces
   std::size_t component_count = 0;
   std::size_t turned = 0;  ///< listed the other way round than in the volume
