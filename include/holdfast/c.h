@@ -66,8 +66,8 @@ typedef struct holdfast_control {
   size_t struct_size;    /* sizeof(holdfast_control) of the caller's headers */
   double time_limit;     /* seconds; 0: none */
   uint64_t memory_limit; /* bytes of the process; 0: none */
-  unsigned threads;      /* 0: all there are; default 1; results do not depend on them */
-  /* Called every 20 ms or so with a stage ("" where there are none) and the share of the call that is done, 0
+  unsigned threads;      /* 0: all available; default 1; results do not depend on it */
+  /* Called every 20 ms or so with a stage ("" if the call has none) and the share of the call that is done, 0
    * to 1; returns 0 to cancel. */
   int (*progress)(void* context, const char* stage, double fraction);
   void* progress_context;
@@ -113,7 +113,7 @@ typedef struct holdfast_surface_arrays {
  * and unchanged until the surface is freed. Others are converted once. */
 HOLDFAST_API holdfast_status holdfast_surface_from_arrays(const holdfast_surface_arrays* arrays,
                                                           holdfast_surface** out, holdfast_error* error);
-/* `format` (".stl", ...) overrides the ending of the path; NULL: by the ending. */
+/* `format` (".stl", ...) overrides the extension of the path; NULL: by the extension. */
 HOLDFAST_API holdfast_status holdfast_surface_read(const char* path, const char* format,
                                                    const holdfast_control* control, holdfast_surface** out,
                                                    holdfast_error* error);
@@ -127,7 +127,7 @@ HOLDFAST_API void holdfast_surface_free(holdfast_surface* surface);
 
 /* ---- Volumes ---- */
 
-/* A tetrahedral mesh. Parts of a result are volumes of their own that outlive it: holdfast_volume_retain. */
+/* A tetrahedral mesh. The volume of a result can outlive it: see holdfast_volume_retain. */
 typedef struct holdfast_volume holdfast_volume;
 
 HOLDFAST_API holdfast_status holdfast_volume_read(const char* path, const char* format,
@@ -175,13 +175,13 @@ typedef struct holdfast_region_seed {
 /* Set it up by holdfast_mesh_options_init. */
 typedef struct holdfast_mesh_options {
   size_t struct_size;         /* sizeof(holdfast_mesh_options) */
-  int field_points;           /* 1: points inside, to compute with; 0: only what the surface forces */
-  double size;                /* for field points: no edge much longer; 0: as the surface has it */
+  int field_points;           /* 1: points inside, for computation; 0: only what the surface forces */
+  double size;                /* for field points: no edge much longer; 0: that of the surface */
   double gradation;           /* negative, the default: 0.3 to 0.5, by the surface */
-  int no_growth;              /* 1: sizes inside stay between those of the surface round */
-  const double* vertex_sizes; /* one a vertex of the surface, or NULL */
-  /* Sizes at `count` points (count, 3), written to `sizes`; what is not positive is no limit. May be NULL. It
-   * is called with as many points at a time as are known then, often one. */
+  int no_growth;              /* 1: sizes inside stay between those of the surrounding surface */
+  const double* vertex_sizes; /* one per vertex of the surface, or NULL */
+  /* Sizes at `count` points (count, 3), written to `sizes`; values that are not positive are no limit. May be
+   * NULL. Each call gets all points known at the time, often one. */
   void (*size_field)(void* context, size_t count, const double* points, double* sizes);
   void* size_field_context;
   holdfast_effort effort;
@@ -206,12 +206,12 @@ HOLDFAST_API holdfast_status holdfast_mesh(const holdfast_surface* surface,
                                            const holdfast_mesh_options* options,
                                            const holdfast_control* control, holdfast_result** out,
                                            holdfast_error* error);
-/* The mesh; NULL where there is none. The result owns it: retain it to keep it longer. */
+/* The mesh, or NULL if there is none. The result owns it: retain it to keep it longer. */
 HOLDFAST_API holdfast_volume* holdfast_result_volume(const holdfast_result* result);
-/* (t, 4): the neighbour behind the face opposite each corner, UINT32_MAX where there is none. */
+/* (t, 4): the neighbour behind the face opposite each corner, or UINT32_MAX. */
 HOLDFAST_API const uint32_t* holdfast_result_neighbours(const holdfast_result* result, size_t* rows);
-/* Ids of the regions in front of and behind triangle i; returns bit 0: there is one in front, bit 1: one
- * behind. */
+/* Ids of the regions in front of and behind triangle i; returns bit 0 if there is one in front, bit 1 if
+ * there is one behind. */
 HOLDFAST_API unsigned holdfast_result_triangle_regions(const holdfast_result* result, size_t triangle,
                                                        int* front, int* behind);
 HOLDFAST_API size_t holdfast_result_steiner_points(const holdfast_result* result);
@@ -247,7 +247,7 @@ HOLDFAST_API holdfast_status holdfast_diagnose(const holdfast_surface* surface, 
 /* The defects that holdfast_mesh found; they belong to the result. */
 HOLDFAST_API const holdfast_defects* holdfast_result_defects(const holdfast_result* result);
 HOLDFAST_API size_t holdfast_defects_count(const holdfast_defects* defects);
-/* Defect i, whose pointers stand as long as `defects`; returns 0 beyond the last. */
+/* Defect i, whose pointers are valid as long as `defects`; returns 0 beyond the last. */
 HOLDFAST_API int holdfast_defects_get(const holdfast_defects* defects, size_t i, holdfast_defect* defect);
 HOLDFAST_API void holdfast_defects_free(holdfast_defects* defects);
 

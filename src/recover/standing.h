@@ -10,7 +10,7 @@
 
 namespace holdfast {
 
-/// One flag a segment of the table and one per facet.
+/// One flag per segment of the table and one per facet.
 struct Standing {
   std::vector<std::uint8_t> segments, facets;
 
