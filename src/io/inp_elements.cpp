@@ -133,6 +133,7 @@ std::vector<std::int64_t> InpElements::read_copies(InpText& text) {
                  ? integer_of(text.reader(), fields[k], "a number of *ELGEN")
                  : std::int64_t{1};
     };
+    const auto step = [&](std::size_t k) { return text.increment(fields, k, "an increment of *ELGEN"); };
     const std::int64_t first = text.number(fields[0], "an element's number");
     const auto original = originals_.find(first);
     if (original == originals_.end())
@@ -147,14 +148,16 @@ std::vector<std::int64_t> InpElements::read_copies(InpText& text) {
     copies_.count(text, counts[0]);
     copies_.count(text, counts[0] * std::min<std::int64_t>(counts[1], 1 << 30));
     copies_.count(text, counts[0] * counts[1] * std::min<std::int64_t>(counts[2], 1 << 30));
+    const std::array<std::int64_t, 3> node_steps{step(2), step(5), step(8)};
+    const std::array<std::int64_t, 3> steps{step(3), step(6), step(9)};
     for (std::int64_t k = 0; k < counts[2]; ++k)
       for (std::int64_t j = 0; j < counts[1]; ++j)
         for (std::int64_t i = 0; i < counts[0]; ++i) {
-          const std::int64_t number = first + i * value(3) + j * value(6) + k * value(9);
+          const std::int64_t number = first + i * steps[0] + j * steps[1] + k * steps[2];
           all.push_back(number);
           if (i + j + k > 0)
             add_by_numbers(text.reader(), text.place(), number, element,
-                           i * value(2) + j * value(5) + k * value(8));
+                           i * node_steps[0] + j * node_steps[1] + k * node_steps[2]);
         }
   }
   return all;

@@ -5,14 +5,6 @@
 #include "numbers/sorted.h"
 
 namespace holdfast::io {
-namespace {
-
-std::int64_t optional_integer(const InpText& text, const std::vector<std::string_view>& fields, std::size_t k,
-                              std::int64_t otherwise, const char* what) {
-  return k < fields.size() && !fields[k].empty() ? integer_of(text.reader(), fields[k], what) : otherwise;
-}
-
-}  // namespace
 
 bool has_inp_keyword(std::string_view bytes, std::string_view name) {
   for (std::size_t at = bytes.find('*'); at != std::string_view::npos; at = bytes.find('*', at + 1))
@@ -39,7 +31,7 @@ void InpGenerated::read_ngen(InpText& text, const InpKeyword& key) {
     if (fields.size() < 2) text.reader().fail("*NGEN needs a first and a last node");
     const std::int64_t first = text.number(fields[0], "the first node"),
                        last = text.number(fields[1], "the last node");
-    const std::int64_t step = std::abs(optional_integer(text, fields, 2, 1, "an increment"));
+    const std::int64_t step = std::abs(text.increment(fields, 2, "an increment"));
     if (step == 0 || first == last || (last - first) % step != 0)
       text.reader().fail("the increment " + std::to_string(step) + " does not lead from the node " +
                          std::to_string(number_in_file(first)) + " to the node " +
@@ -62,7 +54,7 @@ void InpGenerated::read_nfill(InpText& text, const InpKeyword& key) {
     if (fields.size() < 3) text.reader().fail("*NFILL needs two sets of nodes and a number of intervals");
     const Numbers from = set_of(text, fields[0]), to = set_of(text, fields[1]);
     const std::int64_t intervals = integer_of(text.reader(), fields[2], "a number of intervals");
-    const std::int64_t step = optional_integer(text, fields, 3, 1, "an increment");
+    const std::int64_t step = text.increment(fields, 3, "an increment");
     if (intervals < 1 || step == 0) text.reader().fail("*NFILL needs an interval or more, and an increment");
     for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
       made.push_back(from[i]);
@@ -93,12 +85,9 @@ void InpGenerated::read_set(InpText& text, const InpKeyword& key) {
   for (; text.is_data(); text.next()) {
     const std::vector<std::string_view> fields = text.fields();
     if (key.has("generate") && fields.size() > 1) {
-      const std::int64_t first = text.number(fields[0], "the first node"),
-                         last = text.number(fields[1], "the last node"),
-                         step = optional_integer(text, fields, 2, 1, "a step");
-      if (step < 1 || last < first) text.reader().fail("a range that does not go up");
-      made_.count(text, (last - first) / step);
-      for (std::int64_t n = first; n <= last; n += step) numbers.push_back(n);
+      const InpRange range = text.range(fields, "node");
+      made_.count(text, range.steps());
+      range.append_to(numbers);
       continue;
     }
     for (const std::string_view field : fields) {

@@ -60,19 +60,13 @@ void InpSets::read(InpText& text, const InpKeyword& key, std::size_t elements) {
   }
 }
 
-void InpSets::add_range(const InpText& lines, const std::vector<std::string_view>& fields,
+void InpSets::add_range(const InpText& text, const std::vector<std::string_view>& fields,
                         std::size_t elements, Members& members) const {
-  const TextReader& text = lines.reader();
-  if (fields.size() < 2) text.fail("GENERATE needs a first and a last element");
-  const std::int64_t first = lines.number(fields[0], "the first element"),
-                     last = lines.number(fields[1], "the last element");
-  const std::int64_t step =
-      fields.size() > 2 && !fields[2].empty() ? integer_of(text, fields[2], "a step") : 1;
-  if (step < 1 || first < 0 || last < first) text.fail("a range that does not go up");
+  const InpRange range = text.range(fields, "element");
   // Elements come first, and a range cannot have more numbers than there are elements.
-  if ((last - first) / step >= static_cast<std::int64_t>(elements))
-    text.fail("a range of more elements than there are");
-  for (std::int64_t number = first; number <= last; number += step) members.push_back(number);
+  if (range.steps() >= static_cast<std::int64_t>(elements))
+    text.reader().fail("a range of more elements than there are");
+  range.append_to(members);
 }
 
 void InpSets::add_other(const InpText& text, const std::string& name, std::size_t elements,

@@ -25,10 +25,26 @@ bool InpText::is_keyword(std::string_view name) const {
 
 std::int64_t InpText::number(std::string_view field, std::string_view what) const {
   const std::int64_t number = integer_of(text_, field, what);
-  if (scope_.offset == 0) return number;
   if (number < 0 || number >= kNumbersOfAnInstance)
-    text_.fail(std::string(what) + " of an instance is out of range: " + std::to_string(number));
+    text_.fail(std::string(what) + " is out of range: " + std::to_string(number));
   return scope_.offset + number;
+}
+
+std::int64_t InpText::increment(const std::vector<std::string_view>& fields, std::size_t k,
+                                std::string_view what) const {
+  if (k >= fields.size() || fields[k].empty()) return 1;
+  const std::int64_t increment = integer_of(text_, fields[k], what);
+  if (increment < -kMostIncrement || increment > kMostIncrement)
+    text_.fail(std::string(what) + " is out of range: " + std::to_string(increment));
+  return increment;
+}
+
+InpRange InpText::range(const std::vector<std::string_view>& fields, const std::string& what) const {
+  if (fields.size() < 2) text_.fail("GENERATE needs a first and a last " + what);
+  const InpRange range{number(fields[0], "the first " + what), number(fields[1], "the last " + what),
+                       increment(fields, 2, "a step")};
+  if (range.step < 1 || range.last < range.first) text_.fail("a range that does not go up");
+  return range;
 }
 
 InpKeyword InpText::keyword() {

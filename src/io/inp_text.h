@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/fields.h"
 #include "io/inp_exact.h"
@@ -38,12 +40,24 @@ struct InpScope {
   [[nodiscard]] std::string given(const std::string& name) const { return names_too ? prefix + name : name; }
 };
 
-/// The range of numbers of each instance; without instances, numbers are not bounded.
+/// The range of numbers of each instance, and of the lines outside all instances.
 inline constexpr std::int64_t kNumbersOfAnInstance = std::int64_t{1} << 40;
+/// A bound on increments of numbers, above all numbers in Abaqus, so that no sum of them overflows.
+inline constexpr std::int64_t kMostIncrement = std::int64_t{1} << 30;
 /// A number as it is in the file.
 [[nodiscard]] inline std::int64_t number_in_file(std::int64_t number) {
   return number < kNumbersOfAnInstance ? number : number % kNumbersOfAnInstance;
 }
+
+/// The numbers that a line with GENERATE lists: first, first + step, ..., up to last.
+struct InpRange {
+  std::int64_t first, last, step;
+  /// One less than their count.
+  [[nodiscard]] std::int64_t steps() const { return (last - first) / step; }
+  void append_to(std::vector<std::int64_t>& numbers) const {
+    for (std::int64_t k = 0; k <= steps(); ++k) numbers.push_back(first + k * step);
+  }
+};
 
 /// The current line is never a comment; the reader may be at the end.
 class InpText {
@@ -76,6 +90,11 @@ class InpText {
   void set_scope(InpScope scope) { scope_ = std::move(scope); }
   /// A field as the number of a node or an element in the scope. Throws for the line.
   [[nodiscard]] std::int64_t number(std::string_view field, std::string_view what) const;
+  /// Field k as an increment of numbers; 1 if it is missing or empty. Throws for the line.
+  [[nodiscard]] std::int64_t increment(const std::vector<std::string_view>& fields, std::size_t k,
+                                       std::string_view what) const;
+  /// The fields of a line with GENERATE, in a set of entities called `what`. Throws for the line.
+  [[nodiscard]] InpRange range(const std::vector<std::string_view>& fields, const std::string& what) const;
 
   [[nodiscard]] const ExactNodes& exact_nodes() const { return exact_nodes_; }
 

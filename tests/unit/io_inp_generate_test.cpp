@@ -87,5 +87,22 @@ TEST_F(InpGenerate, AShortFileDoesNotMakeMillions) {
             std::string::npos);
 }
 
+TEST_F(InpGenerate, NumbersThatWouldOverflowAreRefused) {
+  const std::string nodes = "*NODE, NSET=E\n1, 0, 0, 0\n3, 1, 0, 0\n";
+  const std::string element = nodes + "*ELEMENT, TYPE=T3D2\n1, 1, 3\n", huge = "9223372036854775807";
+  EXPECT_EQ(error(nodes + "*ELEMENT, TYPE=T3D2\n" + huge + ", 1, 3\n"),
+            "line 5: a number of an element or node is out of range: " + huge);
+  EXPECT_EQ(error(element + "*ELSET, ELSET=A, GENERATE\n" + huge + ", " + huge + "\n"),
+            "line 7: the first element is out of range: " + huge);
+  EXPECT_EQ(error(element + "*ELSET, ELSET=A, GENERATE\n1, 1, " + huge + "\n"),
+            "line 7: a step is out of range: " + huge);
+  EXPECT_EQ(error(nodes + "*NSET, NSET=A, GENERATE\n1, 3, " + huge + "\n*NFILL\nA, E, 2\n"),
+            "line 5: a step is out of range: " + huge);
+  EXPECT_EQ(error(nodes + "*NFILL\nE, E, 2, -" + huge + "\n"),
+            "line 5: an increment is out of range: -" + huge);
+  EXPECT_EQ(error(element + "*ELGEN\n1, 3, 1, " + huge + "\n"),
+            "line 7: an increment of *ELGEN is out of range: " + huge);
+}
+
 }  // namespace
 }  // namespace holdfast
