@@ -3,10 +3,10 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
+#include "any_mesh.h"
 #include "command.h"
 #include "files.h"
 #include "files_of_run.h"
@@ -25,47 +25,6 @@ struct ViewArguments {
   double tolerance = 0;
   bool quiet = false;
 };
-
-/// A file is a volume if its format can hold tetrahedra and it has some.
-struct Shape {
-  std::filesystem::path path;
-  Volume volume;
-  Surface surface;
-  bool is_volume = false;
-};
-
-bool may_be_a_volume(std::filesystem::path path, const std::string& format) {
-  if (path.extension() == ".gz") path.replace_extension();
-  std::string kind = format.empty() ? path.extension().string() : format;
-  std::transform(kind.begin(), kind.end(), kind.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  if (!kind.empty() && kind.front() != '.') kind.insert(kind.begin(), '.');
-  const std::vector<std::string> known = volume_formats();
-  return std::find(known.begin(), known.end(), kind) != known.end();
-}
-
-/// A pipe can be read only once; its format decides how.
-Shape read_shape(const std::filesystem::path& path, const ReadOptions& options, bool quiet) {
-  Shape shape{path, {}, {}};
-  std::vector<Remark> remarks;
-  const bool may_be = may_be_a_volume(path, options.format);
-  std::error_code ignored;
-  const bool once = descriptor_of(path).has_value() || !std::filesystem::is_regular_file(path, ignored);
-  // A .node without its .ele is a list of points.
-  const bool alone = path.extension() == ".node" &&
-                     !std::filesystem::exists(std::filesystem::path(path).replace_extension(".ele"), ignored);
-  if (may_be && !alone) {
-    shape.volume = read_volume(path, options, &remarks);
-    shape.is_volume = once || !shape.volume.tetrahedra.empty();
-  }
-  if (!shape.is_volume) {
-    shape.volume = {};
-    shape.surface = read_surface(path, options);
-    remarks = shape.surface.remarks;
-  }
-  if (!quiet) tell(remarks, path);
-  return shape;
-}
 
 /// A unique name for the page if there is no -o.
 std::filesystem::path temporary_page() {
@@ -89,30 +48,27 @@ bool open_in_browser(const std::filesystem::path& page) {
 int run(const ViewArguments& arguments) {
   const Limits limits = limits_of(arguments.limits);
   FilesOfRun files;
-  for (const auto& path : arguments.files) {
-    if (may_be_a_volume(path, arguments.input_format))
-      files.read_volume(path, arguments.input_format);
-    else
-      files.read_surfaces({path}, arguments.input_format);
-  }
+  for (const auto& path : arguments.files) read_any(files, path, arguments.input_format);
   files.write("-o", arguments.output);
   cancel_by_flag();
-  std::vector<Shape> shapes;
-  for (const auto& path : arguments.files)
-    shapes.push_back(
-        read_shape(path, reading(limits, arguments.input_format, arguments.tolerance), arguments.quiet));
+  const ReadOptions options = reading(limits, arguments.input_format, arguments.tolerance);
+  std::vector<AnyMesh> meshes;
+  for (const auto& path : arguments.files) {
+    meshes.push_back(read_any(path, options));
+    if (!arguments.quiet) tell(meshes.back().remarks, path);
+  }
 
   const bool is_temporary = arguments.output.empty();
   const std::filesystem::path output = is_temporary ? temporary_page() : arguments.output;
   PageOfRun page(output, limits);
   std::string title;
-  for (const Shape& shape : shapes) {
-    const std::string name = shape.path.filename().string();
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const std::string name = arguments.files[i].filename().string();
     title += (title.empty() ? "" : ", ") + name;
-    if (shape.is_volume)
-      page.add(name, shape.volume);
+    if (meshes[i].is_volume)
+      page.add(name, meshes[i].volume);
     else
-      page.add(name, shape.surface);
+      page.add(name, meshes[i].surface);
   }
   page.set_title(title);
   try {

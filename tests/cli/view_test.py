@@ -82,6 +82,11 @@ class ViewTest(CliTest):
         self.run_program("view", "cube.mesh", "-o", "page.html")
         self.assertEqual(data_of(self.page())["parts"][0]["kind"], "surface")
 
+    def test_a_volume_in_a_format_that_is_only_read(self):
+        self.write("tet.avs", "4 1 0 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n1 7 tet 1 2 3 4\n")
+        self.run_program("view", "tet.avs", "-o", "page.html")
+        self.assertEqual(data_of(self.page())["parts"][0]["kind"], "volume")
+
     def test_to_standard_output(self):
         text = self.run_program("view", "cube.off", "-o", "-").stdout
         self.assertTrue(text.startswith("<!DOCTYPE html>") and text.endswith("</html>\n"))
