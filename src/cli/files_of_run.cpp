@@ -12,6 +12,7 @@
 
 #include "command.h"
 #include "holdfast/surface_io.h"
+#include "letters.h"
 
 namespace holdfast::cli {
 namespace {
@@ -20,12 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* standard_input = "/dev/stdin";
 constexpr const char* standard_output = "/dev/stdout";
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-  return text;
-}
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

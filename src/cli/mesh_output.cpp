@@ -2,13 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 
 #include "command.h"
 #include "files.h"
 #include "holdfast/surface_io.h"
+#include "letters.h"
 #include "parts_of_mesh.h"
 #include "summary.h"
 
@@ -51,10 +52,8 @@ std::map<int, fs::path> files_of_regions(const fs::path& path, const Volume& vol
     const auto found = volume.names.regions.find(id);
     const bool named = found != volume.names.regions.end() && !found->second.empty();
     std::string name = named ? in_file_name(found->second) : fmt::format("region_{}", id);
-    std::string lower = name;  // some file systems ignore case
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    if (!taken.insert(lower).second) name += fmt::format("_{}", id);
+    // Some file systems ignore case.
+    while (!taken.insert(lower(name)).second) name += fmt::format("_{}", id);
     fs::path file = path.stem();
     file += "_" + name;
     file += path.extension();

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 #include <system_error>
@@ -11,6 +10,7 @@
 #include "command.h"
 #include "files.h"
 #include "holdfast/tetgen.h"
+#include "letters.h"
 
 namespace holdfast::cli {
 namespace {
@@ -24,12 +24,7 @@ bool is_there(const fs::path& path) {
 
 fs::path without_gz(fs::path path) { return path.extension() == ".gz" ? path.replace_extension() : path; }
 
-std::string ending_of(const fs::path& path) {
-  std::string ending = without_gz(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
+std::string ending_of(const fs::path& path) { return lower(without_gz(path).extension().string()); }
 
 /// The output of "part.1.poly" is "part.2".
 fs::path next_name(const fs::path& stem) {

@@ -93,6 +93,17 @@ class Convert(CliTest):
                 self.assertAlmostEqual(found["volume"], volume)
         self.run_program("convert", "cube.off", "no.stl", "--each-region", expect=2)
 
+    def test_each_region_has_a_file_whatever_the_names(self):
+        vertices = "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 0\n1 1 -1 0\n"
+        tetrahedra = "1 2 3 4 1\n2 5 3 4 2\n1 3 2 6 3\n"
+        (self.folder / "three.mesh").write_text(f"MeshVersionFormatted 2\nDimension 3\nVertices 6\n{vertices}"
+                                                f"Tetrahedra 3\n{tetrahedra}End\n")
+        names = ["--name", "region:1=a", "--name", "region:2=A", "--name", "region:3=A_2"]
+        said = self.run_program("convert", "three.mesh", "out.vtk", "--each-region", *names).stderr
+        for region, name in ((1, "out_a.vtk"), (2, "out_A_2.vtk"), (3, "out_A_2_3.vtk")):
+            self.assertIn(f"{name}: region {region}", said)
+            self.assertEqual(self.info(name)["tetrahedra"], 1)
+
     def test_only(self):
         self.boxes()
         self.run_program("convert", "boxes.vtu", "v.vtu", "--only", "volume")
