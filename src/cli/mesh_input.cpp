@@ -16,6 +16,7 @@
 #include "paste_options.h"
 #include "paste_result.h"
 #include "summary.h"
+#include "unused_vertices.h"
 
 namespace holdfast::cli {
 
@@ -69,19 +70,7 @@ void split_by_angle(const MeshArguments& arguments, Surface& surface) {
 }
 
 void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surface, ProgressView& progress) {
-  std::vector<bool> used(surface.vertices.size());
-  const auto use = [&](Index v) {
-    if (v < used.size()) used[v] = true;
-  };
-  for (const Triangle& t : surface.facets) std::for_each(t.begin(), t.end(), use);
-  for (const Segment& s : surface.segments) std::for_each(s.begin(), s.end(), use);
-  std::size_t lone = 0;
-  if (std::find(used.begin(), used.end(), false) != used.end()) {
-    // Vertices left out, as duplicates or because they are not finite, are reported elsewhere.
-    const std::vector<std::int64_t> map = vertex_map(surface.view());
-    for (std::size_t v = 0; v < used.size(); ++v)
-      if (!used[v] && (map.empty() || map[v] >= 0)) ++lone;
-  }
+  const std::size_t lone = isolated_vertices(surface);
   if (lone == 0) return;
   const bool from_volume = std::any_of(
       arguments.surfaces.begin(), arguments.surfaces.end(),

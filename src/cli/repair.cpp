@@ -18,6 +18,7 @@
 #include "signals.h"
 #include "summary.h"
 #include "surface_output.h"
+#include "unused_vertices.h"
 
 namespace holdfast::cli {
 namespace {
@@ -102,16 +103,6 @@ void write_html(const RepairArguments& arguments, const Limits& limits, const Su
   page.set_verdict(done ? summary_of(result) : result.message, done);
   page.set_report(report);
   page.write();
-}
-
-/// By vertex: whether it belongs to a triangle or segment.
-std::vector<bool> in_use(const Surface& surface) {
-  std::vector<bool> used(surface.vertices.size(), false);
-  for (const auto& f : surface.facets)
-    for (const Index v : f) used[v] = true;
-  for (const auto& s : surface.segments)
-    for (const Index v : s) used[v] = true;
-  return used;
 }
 
 /// Reports vertices of the input that are kept although a union drops everything on them.

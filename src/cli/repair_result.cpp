@@ -8,23 +8,10 @@
 #include "holdfast/io.h"
 #include "holdfast/names.h"
 #include "summary.h"
+#include "unused_vertices.h"
 
 namespace holdfast::cli {
 namespace {
-
-/// The number of vertices that belong to nothing but are vertices of a mesh all the same.
-std::size_t isolated_vertices(const Surface& surface) {
-  std::vector<bool> used(surface.vertices.size(), false);
-  for (const Triangle& t : surface.facets)
-    for (const Index v : t) used[v] = true;
-  for (const Segment& s : surface.segments)
-    for (const Index v : s) used[v] = true;
-  const std::vector<std::int64_t> map = vertex_map(surface.view());
-  std::size_t count = 0;
-  for (std::size_t v = 0; v < used.size(); ++v)
-    if (!used[v] && (map.empty() || map[v] >= 0)) ++count;
-  return count;
-}
 
 const char* explanation(OpenReason reason) {
   switch (reason) {
