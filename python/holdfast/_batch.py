@@ -48,7 +48,7 @@ class Batch:
 
 
 def stem_of(file: PathLike) -> str:
-    """The name without its ending, be it packed or not: "part" of "a/part.stl.gz"."""
+    """The name without its ending, compressed or not: "part" of "a/part.stl.gz"."""
     name = Path(file).name
     if name.lower().endswith(".gz"):
         name = name[:-3]
@@ -130,7 +130,7 @@ def _all_results(results: Path) -> list[Path]:
 
 
 def run_part(task: Task) -> Row:
-    """Meshes one part in a child process, which dies with its parent, and tells how it went."""
+    """Meshes one part in a child process, which dies with its parent, and reports the outcome."""
     started = time.monotonic()
     Path(task.output).parent.mkdir(parents=True, exist_ok=True)
     command = [program(), "mesh", task.file, "-o", task.output, "--report", "-", *task.arguments]
@@ -139,7 +139,7 @@ def run_part(task: Task) -> Row:
     row: Row = {"file": task.file, "output": task.output, "options": options_that_matter(task.arguments)}
     if (checksum := checksum_of(task.file)) is not None:
         row["checksum"] = checksum
-    # A child that does not heed its limit is stuck in the system, where no limit of its own helps.
+    # A child beyond its limit is stuck in a system call, where its own limits have no effect.
     patience = None if task.time_limit is None else 2 * task.time_limit + 60
     child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     _children.add(child)
@@ -199,7 +199,7 @@ def _told(exit_code: int, message: str) -> str:
     lines = message.splitlines()
     if not lines:
         return ""
-    # What went wrong begins with the program's name, behind what it tells of the file; what went well is the last line.
+    # An error begins with the program's name and follows the remarks on the file; a success is the last line.
     if exit_code != 0:
         return next((line for line in reversed(lines) if line.startswith("holdfast: ")), lines[0])
     return lines[-1]
@@ -242,7 +242,7 @@ def execute(
     resume: bool = False,
     tell: Optional[typing.Callable[[Row, int, int], None]] = None,
 ) -> list[Row]:
-    """Runs the tasks and returns a row for each, in their order. The results file gets the rows as they come."""
+    """Runs the tasks and returns a row for each, in their order. Each row is written to the results file when it is ready."""
     batch.results.parent.mkdir(parents=True, exist_ok=True)
     rows: dict[str, Row] = {}
     lock = threading.Lock()
@@ -279,7 +279,7 @@ def _skipped(task: Task, earlier: dict[str, Row]) -> Row:
 
 def _run_on(executor: Any, tasks: typing.Sequence[Task], finish: typing.Callable[[Row], None]) -> None:
     is_dask = hasattr(executor, "scheduler_info")
-    # The program counts as the worker's own: results of the same task are not to be taken from a cache.
+    # The program differs between workers, so results of the same task must not come from a cache.
     options = {"pure": False} if is_dask else {}
     futures = {executor.submit(run_part, task, **options): task for task in tasks}
     try:
@@ -312,7 +312,7 @@ _VALUES = {"size": "--size", "gradation": "--gradation", "quality": "--quality",
 
 
 def _number(value: Any) -> str:
-    """As the program reads it: the id of a region is an integer, also in a row of an array."""
+    """The value as the program reads it: the id of a region is an integer, also in a row of an array."""
     return str(int(value)) if isinstance(value, float) and value.is_integer() and abs(value) < 2**53 else str(value)
 
 
@@ -365,34 +365,34 @@ def batch(
     files
         Surface files with distinct stems.
     executor
-        A `concurrent.futures` executor or a Dask client, whose workers see the same files; None: `jobs` threads here.
+        A `concurrent.futures` executor or a Dask client, whose workers see the same files; None: `jobs` threads in this process.
     jobs
-        Parts at a time without an executor; None: as many as there are processors.
+        The number of parts at a time without an executor; None: one per processor.
     time_limit, memory_limit
-        Of each part, as `mesh` takes them.
+        For each part, as in `mesh`.
     resume
-        Leaves out parts whose output is complete, of the same file and by the same options, and merges the results of earlier
-        runs and shards. Results that do not tell the options count as of the same.
+        Skips parts with complete output from the same file and the same options, and merges the results of earlier
+        runs and shards. Results without options count as having the same ones.
     results
-        File of a JSON line a part (default `output`/results.jsonl; shard I of N writes results.I-of-N.jsonl and merges
-        those that there are).
+        File with one JSON line per part (default `output`/results.jsonl; shard I of N writes results.I-of-N.jsonl and merges
+        those that exist).
     shard
         (I, N): only every N-th file from the I-th on, from 0.
     progress
-        Called with (row, how many are finished, how many there are).
+        Called with (row, number finished, number of all).
     options
-        Of `mesh`: fill, size (a number), quality, keep, seed, threads and so on.
+        Options of `mesh`: fill, size (a number), quality, keep, seed, threads and so on.
 
     Returns
     -------
-    A dict a file: "file", "output", "status" ("done", "skipped", "invalid", "limit" or "failed"), "exit", "seconds",
+    One dict per file: "file", "output", "status" ("done", "skipped", "invalid", "limit" or "failed"), "exit", "seconds",
     "message", "ended" (seconds since 1970), "options" (those on which the mesh depends), "checksum" (of the file), and for
     done parts "points", "tetrahedra", "regions", "steiner_points", "min_dihedral_deg", "below_10_deg".
 
     Raises
     ------
     ValueError
-        For equal stems, and a shard that there is not.
+        For equal stems, and for a shard that does not exist.
 
     Example
     -------

@@ -1,4 +1,4 @@
-"""What is known of the parts of a batch: tasks, and the rows that earlier runs wrote of them."""
+"""The parts of a batch: tasks, and the rows that earlier runs wrote about them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _FILES_OF_FORMAT = {".node": (".node", ".ele", ".face", ".edge")}
 
 @dataclass(frozen=True)
 class Task:
-    """One part, as a worker gets it; plain data, so that it travels to other processes and machines."""
+    """One part, as a worker gets it; plain data that can be sent to other processes and machines."""
 
     file: str
     output: str
@@ -29,7 +29,7 @@ class Task:
 
 
 def rows_of(path: Path) -> typing.Iterator[Row]:
-    """Lines that are whole; a run that was killed may have left a part of one."""
+    """Complete lines; a killed run may have left a part of one."""
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
     except FileNotFoundError:
@@ -52,7 +52,7 @@ def keep_better(rows: dict[str, Row], row: Row) -> None:
 
 _NO_MATTER = {"-q": 0, "--quiet": 0, "-v": 0, "--verbose": 0, "--threads": 1, "--time-limit": 1, "--memory-limit": 1,
               "--report": 1, "--html": 1}
-"""Options that leave the mesh as it is, and how many values they have."""
+"""Options that do not change the mesh, and the number of their values."""
 
 
 def options_that_matter(arguments: typing.Sequence[str]) -> list[str]:
@@ -85,18 +85,18 @@ def checksum_of(file: PathLike) -> Optional[str]:
 
 def is_current(task: Task, known: Row) -> bool:
     """Whether an earlier run wrote what this run would write: from the same file, with the same options, as far as
-    `known`, the row of that run, tells."""
+    `known`, the row of that run, shows."""
     if not known:
         return True
-    if known["status"] not in ("done", "skipped"):  # the files are of a run before that one
+    if known["status"] not in ("done", "skipped"):  # the files are from an earlier run
         return False
-    if known.get("options") != options_that_matter(task.arguments):  # a row without is of nobody knows which
+    if known.get("options") != options_that_matter(task.arguments):  # a row without it may belong to any
         return False
     return "checksum" not in known or known["checksum"] == checksum_of(task.file)
 
 
 def is_complete(task: Task, earlier: dict[str, Row]) -> bool:
-    """Files appear complete or not at all. Of files that belong together the first may exist alone."""
+    """Files appear complete or not at all. The first of several files may exist without the others."""
     if not is_current(task, earlier.get(task.output, {})):
         return False
     endings = _FILES_OF_FORMAT.get(task.format)

@@ -42,10 +42,10 @@ def convert(
     Parameters
     ----------
     source, target
-        Files; their endings tell the formats, unless `input_format` and `format` do ("msh2" is version 2.2 of .msh).
-        A volume becomes its boundary and its interfaces in a format of surfaces alone (.stl, .ply, .obj, .off, .poly).
+        Files; their endings give the formats, unless `input_format` and `format` do ("msh2" is version 2.2 of .msh).
+        A volume becomes its boundary and interfaces in a format that only holds surfaces (.stl, .ply, .obj, .off, .poly).
     only
-        "volume" (the tetrahedra alone), "surface", or "region=ID" with an id or a name, several of these in a list.
+        "volume" (only the tetrahedra), "surface", or "region=ID" with an id or a name; several of these in a list.
     each_region
         A file for each region, NAME_REGION beside `target`.
     scale
@@ -54,7 +54,7 @@ def convert(
         1 or 2: without or with nodes in the middle of edges; None leaves them as they are. `curved` and
         `curved_tolerance` are those of `TetMesh.second_order`.
     names
-        Names of ids, which count before those of the file: {"triangles": {3: "inlet"}, "regions": {10: "core"}}.
+        Names of ids, which take precedence over those of the file: {"triangles": {3: "inlet"}, "regions": {10: "core"}}.
     binary, one_file, gzip, shells, threads
         As `TetMesh.save` takes them.
     time_limit, memory_limit
@@ -63,7 +63,7 @@ def convert(
     Returns
     -------
     list of str
-        What the target does not hold, or holds in another way, a line each.
+        What the target cannot hold, or holds in another form, one line each.
 
     Raises
     ------

@@ -53,7 +53,7 @@ def limits(
 
 
 def is_truth(value: Any) -> bool:
-    """Python counts True and False as 1 and 0, but nobody means them as numbers."""
+    """Python counts True and False as 1 and 0, but they are not meant as numbers."""
     return isinstance(value, (bool, np.bool_))
 
 
@@ -90,7 +90,7 @@ def length(value: Any, what: str) -> float:
 
 
 class _Bar:
-    """A bar on standard error: tqdm's if it is installed, else a plain line."""
+    """A bar on standard error: tqdm's if it is installed, otherwise a plain line."""
 
     def __init__(self, what: str) -> None:
         self.done = 0.0

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 
 def plain(values: Any, what: str, dtype: npt.DTypeLike = None) -> npt.NDArray[Any]:
-    """The array that an argument is, without a copy where it is one. Raises ValueError for the first masked entry.
+    """The argument as an array, without a copy if it is one. Raises ValueError for the first masked entry.
 
     >>> plain(np.ma.array([1, 2], mask=[False, False]), "sizes")
     array([1, 2])

@@ -73,8 +73,8 @@ def mesh(
     triangle_markers, segment_markers
         (m,) and (k,) integers, copied to the result.
     size
-        How long edges should be, in the surface's unit: a number (the largest size anywhere), one number a point of the
-        surface (0: as the surface has it), a background mesh (a path to .mesh with .sol, .vtu, .mtr or .pos; or
+        How long edges should be, in the surface's unit: a number (the largest size anywhere), one number per point of the
+        surface (0: that of the surface), a background mesh (a path to .mesh with .sol, .vtu, .mtr or .pos; or
         `(points, tetrahedra, sizes)`), or a function that takes an (m, 3) array and returns m sizes. A size that is not
         positive is no limit.
     metric
@@ -101,8 +101,8 @@ def mesh(
     quality
         Effort for the elements with field points: "fast", "good" or "best".
     keep
-        "auto" (by winding number if the surface is consistently oriented, else every bounded region), "bounded",
-        "winding" or "box" (everything out to a box, `box_margin` of the largest extent away).
+        "auto" (by winding number if the surface is consistently oriented, otherwise every bounded region), "bounded",
+        "winding" or "box" (everything up to a box, `box_margin` of the largest extent away).
     holes
         (x, y, z) of points in regions to leave empty.
     regions
@@ -111,7 +111,7 @@ def mesh(
         Drop triangles outside every kept region instead of refusing them.
     repair
         Make the surface valid first, as `holdfast.repair` does: True, or the distance within which vertices are joined.
-        The result's `repair` tells what changed. If the surface then has no mesh in doubles, it is repaired again, and
+        The result's `repair` says what changed. If the surface then has no mesh in doubles, it is repaired again, and
         sheets that are some last bits apart are joined.
     fill_holes, union
         With `repair`: as `holdfast.repair` takes them.
@@ -120,7 +120,7 @@ def mesh(
         later parts are put on an earlier part. The parts are those of the list, or the connected components of one
         surface.
     overlap
-        With several parts or `paste`: which part gets space that several parts hold: "first", "last" or "new" (a region
+        With several parts or `paste`: which part gets space that several parts contain: "first", "last" or "new" (a region
         of its own). By default parts that overlap are refused.
     without
         Steps to leave out: "flips", "optimise", "points".
@@ -128,7 +128,7 @@ def mesh(
         The order in which missing constraints are cut into the mesh: "random", "given" (the surface's order) or
         "halving" (the middle one first, then those in the middle of both halves).
     seed, threads
-        The seed of the random orders, and the number of threads (0: all there are). The result does not depend on the
+        The seed of the random orders, and the number of threads (0: all available). The result does not depend on the
         number of threads.
     time_limit
         Seconds.
@@ -138,7 +138,7 @@ def mesh(
         A `CancelToken` that another thread may use.
     progress
         True shows a bar. A function is called with (stage, fraction of the whole call); the call is cancelled if it
-        returns False, and its exceptions leave the call.
+        returns False, and its exceptions end the call.
 
     Raises
     ------

@@ -19,7 +19,7 @@ class Given(typing.NamedTuple):
 
 
 def joined(surfaces: typing.Sequence[Surface], names: typing.Sequence[str]) -> Surface:
-    """Parts as one surface, as the program joins files: a part without markers gets one, with the part's name."""
+    """Parts as one surface, joined as the program joins files: a part without markers gets one, with the part's name."""
     if not surfaces:
         raise ValueError("there is no surface")
     if len(surfaces) == 1:

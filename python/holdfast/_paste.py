@@ -20,7 +20,7 @@ class Pasted:
     """Parts as one conformal surface for `mesh`: every region of the mesh belongs to one part. If the parts are meshes,
     one mesh.
 
-    Indices of points and triangles count through the parts in turn.
+    Points and triangles are numbered through all parts in order.
     """
 
     def __init__(self, result: _core.PasteResult, volumes: Optional[_core.PastedVolumes] = None) -> None:
@@ -29,9 +29,9 @@ class Pasted:
         self.mesh: Optional[TetMesh] = None if volumes is None else TetMesh._of(volumes.volume, None, volumes)
         """The tetrahedra if the parts are meshes: those that stay, and those that replace others."""
         self.origin: Optional[Array] = None if volumes is None else volumes.origin
-        """(m,) int64, with `mesh`: the number of each tetrahedron through all parts in turn; -1: a new one."""
+        """(m,) int64, with `mesh`: the number of each tetrahedron in all parts together; -1: a new one."""
         self.surface: Surface = _of_data(result.surface)
-        """The points of all parts, then new ones; triangles that parts have in common are there once."""
+        """The points of all parts, then new ones; triangles that parts have in common occur once."""
         self.marker_sets: dict[int, list[int]] = dict(result.marker_sets)
         """The markers behind each marker of triangles that parts share under different markers."""
         self.moved: dict[int, float] = dict(result.moved)
@@ -50,7 +50,7 @@ class Pasted:
 
     @property
     def parents(self) -> list[tuple[int, ...]]:
-        """For each triangle, the triangles of the parts that it is a part of: several where parts touch."""
+        """For each triangle, the triangles of the parts that it is a part of: several if parts touch there."""
         return self._result.parents
 
     @property
@@ -84,7 +84,7 @@ def paste(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> Pasted:
-    """Pastes parts that touch. Each common face is there once, and both parts cut it alike.
+    """Pastes parts that touch. Each common face occurs once, with the same triangles for both parts.
 
     Parameters
     ----------
@@ -96,20 +96,20 @@ def paste(
         Points of later parts within this distance of an earlier part are put on it: a length in the surfaces' unit, 0
         or more. The first part stays as it is; with 0 all parts do. It should be smaller than the parts' details.
     overlap
-        Which part gets space that several parts hold: "first", "last", "new" (a region of its own), or "refuse". Meshes
+        Which part gets space that several parts contain: "first", "last", "new" (a region of its own), or "refuse". Meshes
         that overlap are always refused.
     names
-        One name a part, for its regions and markers without a name. By default the stem of the part's file, or "part
+        One name per part, for its regions and markers without a name. By default the stem of the part's file, or "part
         k".
     threads, time_limit, memory_limit, cancel, progress
-        As `mesh` takes them.
+        As in `mesh`.
 
     Returns
     -------
     Pasted
-        `surface` has the (n, 3) points of all parts in turn, then new ones, and (m, 3) triangles; `moved` tells the
+        `surface` has the (n, 3) points of all parts in order, then new ones, and (m, 3) triangles; `moved` has the
         points that moved, with their distances in the surfaces' unit. If the parts are meshes, `mesh` has the
-        tetrahedra, `surface` is their boundary, and indices count the points on the boundaries in turn.
+        tetrahedra, `surface` is their boundary, and indices number the points on the boundaries in order.
 
     Raises
     ------

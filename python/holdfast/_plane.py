@@ -35,7 +35,7 @@ class PlaneMesh:
         self.n_input_points: int = result.n_input_points
         """Number of given points. The points after them were added for `size` or `angle`."""
         self.remarks: list[str] = list(result.remarks)
-        """What the file holds and the plane does not, or holds in another form."""
+        """What the file also has, or has in another form."""
 
     @property
     def points(self) -> Array:
@@ -44,7 +44,7 @@ class PlaneMesh:
 
     @property
     def triangles(self) -> Array:
-        """(m, 3) indices of points. Corners turn left; in space they are oriented as the first polygon of their
+        """(m, 3) indices of points, counterclockwise; in space they are oriented as the first polygon of their
         plane."""
         return self._result.triangles
 
@@ -60,12 +60,12 @@ class PlaneMesh:
 
     @property
     def point_markers(self) -> Optional[Array]:
-        """(n,) if points have markers, else None. Points on a segment carry its marker."""
+        """(n,) if points have markers, otherwise None. Points on a segment carry its marker."""
         return _or_none(self._result.point_markers)
 
     @property
     def segment_markers(self) -> Optional[Array]:
-        """(k,) if segments have markers, else None."""
+        """(k,) if segments have markers, otherwise None."""
         return _or_none(self._result.segment_markers)
 
     @property
@@ -145,7 +145,7 @@ def plane(
         For the method "ears": "first", "best" (the corner whose triangle is closest to a regular one) or "join" (the second
         construction of the paper's §2.1.2).
     partition_first
-        For the method "partition": remove added points when all segments stand, not after each segment.
+        For the method "partition": remove added points when all segments exist, not after each segment.
     delaunay
         Finally swap edges until the triangles are constrained Delaunay.
     hull
@@ -156,7 +156,7 @@ def plane(
     angle
         Add points until no angle is smaller than this, in degrees: 0 to 34. Up to 26.45 this ends for every input.
     keep_boundary
-        Add points inside only, none on segments.
+        Add points only inside, none on segments.
     max_points
         Largest number of points added for `size` and `angle`; 10,000,000 by default.
     stop_after
@@ -164,15 +164,15 @@ def plane(
         the report.
     order
         Which missing segment is laid next, for "swaps" and "partition": "given", "random" or "halving"; by default one
-        near the last.
+        near the previous one.
     tolerance
         How far points in space may be from their mean plane; rounding is always allowed.
     seed
-        Of the random orders.
+        The seed of the random orders.
     format
-        The ending to use (".poly") if the file's own does not tell the format.
+        The ending to use (".poly") if the file's own does not give the format.
     time_limit, memory_limit, cancel, progress
-        As `mesh` takes them.
+        As in `mesh`.
 
     Raises
     ------
@@ -246,7 +246,7 @@ def plane(
 
 
 def _stage(text: Optional[str]) -> Tuple[Optional[str], int]:
-    """The stage, and of swap=K the number."""
+    """The stage and, for swap=K, the number."""
     name, equals, count = (text or "").partition("=")
     if name != "swap":
         return text, 0

@@ -11,7 +11,7 @@ from typing import NoReturn
 
 
 def program() -> str:
-    """Its path: of HOLDFAST_PROGRAM, the package's own, or the one on PATH. Raises FileNotFoundError."""
+    """Its path: HOLDFAST_PROGRAM, the package's own, or the one on PATH. Raises FileNotFoundError."""
     if named := os.environ.get("HOLDFAST_PROGRAM"):
         return named
     own = Path(__file__).parent / "bin" / "holdfast"
@@ -24,7 +24,7 @@ def program() -> str:
 
 
 def run(arguments: typing.Sequence[str]) -> NoReturn:
-    """Becomes the program."""
+    """Replaces this process by the program."""
     sys.stdout.flush()
     sys.stderr.flush()
     path = program()

@@ -25,8 +25,8 @@ class Repair:
         """The surface: the given points with their indices, then the new ones."""
         self.surface.holes, self.surface.regions = list(given.holes), list(given.regions)
         self.max_displacement: float = result.max_displacement
-        """No point of the surface is further than this from the given surface, nor the other way round, except on
-        triangles that were dropped or fill holes."""
+        """No point of the surface is further than this from the given surface, nor is the given surface further from
+        it, except on triangles that were dropped or fill holes."""
 
     @property
     def parents(self) -> tuple[Array, Array]:
@@ -96,14 +96,14 @@ def repair(
         on it. Sides with one triangle each get a point where they pass each other within this distance. A length in the
         surface's unit, 0 or more; 0 joins nothing.
     join
-        Then give triangles that overlap within this distance, some last bits, the same triangles where they overlap.
+        Then give triangles that overlap within this distance, a few last bits, the same triangles where they overlap.
         Points stay. A length in the surface's unit, 0 or more.
     fill_holes
         Close holes: True for all, or the largest number of sides of a border, 3 or more; False or 0: none.
     union
         Drop triangles with material on both sides or on neither.
     threads, time_limit, memory_limit, cancel, progress
-        As `mesh` takes them.
+        As in `mesh`.
 
     Returns
     -------
@@ -119,7 +119,7 @@ def repair(
     TimeLimit, MemoryLimit, Cancelled, FileError
         As `mesh` does.
     ValueError, TypeError
-        For arrays of a wrong shape or type, and lengths that are negative, not finite, or none.
+        For arrays of a wrong shape or type, and lengths that are negative, not finite, or not numbers.
 
     How it works and what it is based on: docs/repairing.md; George, Borouchaki, Saltel 2003, section 9.
 

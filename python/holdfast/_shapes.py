@@ -15,7 +15,7 @@ class Quality(typing.NamedTuple):
     """Shape of each tetrahedron, arrays of length m."""
 
     volume: Array
-    """In the surface's unit cubed, positive."""
+    """In the cube of the surface's unit, positive."""
     min_dihedral: Array
     """Least angle between two faces, degrees; 70.5 is regular."""
     max_dihedral: Array
@@ -32,12 +32,12 @@ def frozen(ids: Array, none: Array) -> "ma.MaskedArray[Any, Any]":
 
 def regions_beside(tetrahedra: Array, regions: Array, triangles: Array) -> "ma.MaskedArray[Any, Any]":
     """In front of and behind each triangle, by the tetrahedra that have it as a face."""
-    faces = np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])  # opposite to each corner, seen from outside
+    faces = np.array([(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)])  # opposite each corner, seen from outside
     corners = tetrahedra[:, faces].reshape(-1, 3).astype(np.int64)
     owners = np.repeat(regions if len(regions) else np.zeros(len(tetrahedra), np.int32), 4)
 
     def keys(rows: Array) -> tuple[Array, Array]:
-        """Sorted corners as bytes, and whether they turn evenly from there."""
+        """Sorted corners as bytes, and whether the permutation is even."""
         order = np.argsort(rows, axis=1)
         even = (order[:, 1] - order[:, 0]) % 3 == 1
         found = np.ascontiguousarray(np.take_along_axis(rows, order, axis=1))
@@ -53,7 +53,7 @@ def regions_beside(tetrahedra: Array, regions: Array, triangles: Array) -> "ma.M
     none = np.ones((len(triangles), 2), bool)
     for i, (k, e) in enumerate(zip(wanted.tolist(), turned.tolist())):
         for side, region in sides.get(k, []):
-            behind = side == e  # seen from outside its tetrahedron as the triangle turns: that one is behind
+            behind = side == e  # oriented as the face seen from outside the tetrahedron, which is then behind
             ids[i, int(behind)], none[i, int(behind)] = region, False
     return frozen(ids, none)
 

@@ -22,7 +22,7 @@ def _is_background(value: Any) -> bool:
 
 
 def set_size(size: Size, options: dict[str, Any], points: int) -> Optional[typing.Callable[[Array], Any]]:
-    """Puts the meaning of `size` into the options, or returns it if it is a function."""
+    """Sets `size` in the options, or returns it if it is a function."""
     if size is None:
         return None
     if isinstance(size, (str, bytes, os.PathLike)):
@@ -63,7 +63,7 @@ def _as_six(tensors: npt.ArrayLike) -> Array:
     """The (m, 6) numbers m11 m12 m22 m13 m23 m33 of tensors given as (m, 3, 3) or (m, 6) numbers."""
     array = plain(tensors, "metric", np.float64)
     if array.ndim == 3 and array.shape[1:] == (3, 3):
-        with np.errstate(invalid="ignore"):  # of what is not finite others tell
+        with np.errstate(invalid="ignore"):  # numbers that are not finite are reported elsewhere
             skew = np.abs(array - array.transpose(0, 2, 1)).max(axis=(1, 2), initial=0)
         if (wrong := np.flatnonzero(skew > 1e-6 * np.abs(array).max(axis=(1, 2), initial=0))).size > 0:
             raise ValueError(f"metrics must be symmetric, and number {wrong[0]} is not")

@@ -60,13 +60,13 @@ class Surface:
         self.segment_markers: Optional[Array] = markers_of(segment_markers, "segment_markers")
         self.point_markers: Optional[Array] = markers_of(point_markers, "point_markers")
         self.holes: list[Hole] = list(holes)
-        """Points in regions to leave empty, as the file names them."""
+        """Points in regions to leave empty, from the file."""
         self.regions: list[Region] = list(regions)
-        """(x, y, z, id, size) of regions, as the file names them; a size of 0 is none."""
+        """(x, y, z, id, size) of regions, from the file; a size of 0 means none."""
         self.remarks: list[str] = list(remarks)
-        """What the file holds and a surface does not, or holds in another form."""
+        """What the file also has, or has in another form."""
         self.names: Names = names_of(names)
-        """Names of markers, and of regions that `regions` number. Meshes of the surface get them."""
+        """Names of markers, and of regions numbered by `regions`. Meshes of the surface get them."""
 
     def __repr__(self) -> str:
         extra = "" if self.segments is None else f", {counted(len(self.segments), 'segment')}"
@@ -182,7 +182,7 @@ def _told_by_shape(surface: Any) -> Surface:
 def _is_table(values: Any) -> bool:
     try:
         return np.ndim(values) == 2
-    except ValueError:  # rows of several lengths
+    except ValueError:  # rows of different lengths
         return False
 
 
@@ -367,20 +367,20 @@ def read_surface(
     Parameters
     ----------
     path
-        The file, also packed by gzip; or several files, whose indices count on. The triangles of a file without markers
-        get the next free marker, from 1, and the file's name.
+        The file, which may be compressed by gzip; or several files, whose indices are shifted. The triangles of a file
+        without markers get the next free marker, from 1, and the file's name.
     format
-        The ending to use (".stl") if the file's own does not tell the format.
+        The ending to use (".stl") if the file's own does not give the format.
     tolerance
         How far corners of a polygon that is not convex may lie from its plane, in the file's unit; rounding is always
         allowed.
     time_limit, memory_limit, cancel, progress
-        As `mesh` takes them.
+        As in `mesh`.
 
     Raises
     ------
     FileError
-        If there is no such file, or it does not hold what its ending says.
+        If there is no such file, or it is not in the format of its ending.
 
     Example
     -------

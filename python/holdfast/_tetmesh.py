@@ -49,7 +49,7 @@ class TetMesh:
     segments: Array
     """(s, 2) int32."""
     n_input_points: Optional[int]
-    """How many points belong to the surface; None if a file does not tell."""
+    """The number of points of the surface; None if a file does not say."""
 
     def __init__(
         self,
@@ -115,18 +115,18 @@ class TetMesh:
 
     @property
     def names(self) -> Names:
-        """Names of triangle, segment and point markers and of regions, a dictionary each. They are written to files
+        """Names of triangle, segment and point markers and of regions, one dictionary each. They are written to files
         that can hold them."""
         return Names(*self._volume.names)
 
     @property
     def triangle_markers(self) -> Array:
-        """(k,) int32; zeros where the surface has none."""
+        """(k,) int32; zeros if the surface has none."""
         return self._markers(self._volume.triangle_markers, len(self.triangles))
 
     @property
     def segment_markers(self) -> Array:
-        """(s,) int32; zeros where the surface has none."""
+        """(s,) int32; zeros if the surface has none."""
         return self._markers(self._volume.segment_markers, len(self.segments))
 
     @property
@@ -156,7 +156,7 @@ class TetMesh:
     @property
     def triangle_regions(self) -> "ma.MaskedArray[Any, Any]":
         """(k, 2) int32: regions in front of each triangle (seen from there its corners turn counterclockwise) and
-        behind it; masked where there is none."""
+        behind it; masked on a side without a region."""
         if self._triangle_regions is None:
             self._triangle_regions = self._find_triangle_regions()
         return self._triangle_regions
@@ -182,7 +182,7 @@ class TetMesh:
 
     @property
     def warnings(self) -> list[str]:
-        """Decisions of the mesher, and doubts about the input."""
+        """Decisions of the mesher, and warnings about the input."""
         return [str(w["message"]) for w in self.report.get("warnings", [])]
 
     def quality(self) -> Quality:
@@ -203,7 +203,7 @@ class TetMesh:
 
     @property
     def order(self) -> int:
-        """2 if edges have nodes in their middle, else 1."""
+        """2 if edges have nodes in their middle, otherwise 1."""
         return 2 if len(self._volume.mid_points) else 1
 
     def second_order(self, curved: Any = None, tolerance: Optional[float] = None) -> "TetMesh":
@@ -213,7 +213,7 @@ class TetMesh:
         Parameters
         ----------
         curved
-            A smooth surface, given by finer triangles (whatever `mesh` takes): nodes on edges of triangles are put on it,
+            A smooth surface, given by finer triangles (any input of `mesh`): nodes on edges of triangles are put on it,
             unless an element would not be positive everywhere. `curve_report` counts them.
         tolerance
             How far a node may move; by default a tenth of its edge.
@@ -241,7 +241,7 @@ class TetMesh:
     @property
     def not_positive(self) -> Array:
         """(k,) tetrahedra of second order whose Jacobian is not proven positive everywhere, ascending. With straight edges they
-        are so flat that their nodes, rounded to doubles, turn them. Solvers refuse them. Empty for a mesh of first order."""
+        are so flat that their nodes, rounded to doubles, invert them. Solvers refuse them. Empty for a mesh of first order."""
         return _core.not_positive_elements(self._volume)
 
     @property
@@ -271,7 +271,7 @@ class TetMesh:
         return np.concatenate([corners, nodes], axis=1)
 
     def neighbours(self) -> Array:
-        """(m, 4) int32: the tetrahedron behind the face opposite each corner, -1 where there is none."""
+        """(m, 4) int32: the tetrahedron behind the face opposite each corner, or -1."""
         return _core.neighbours(self._volume)
 
     def surface(self) -> Surface:
@@ -317,28 +317,28 @@ class TetMesh:
             folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off or .poly for the boundary and the interfaces.
             docs/formats.md lists what each format holds.
         format
-            The ending to use if the name does not tell the format; also "msh2" (version 2.2 of .msh) or "openfoam"
+            The ending to use if the name does not give the format; also "msh2" (version 2.2 of .msh) or "openfoam"
             (`path` is the case).
         binary
             .msh: numbers as bytes.
         one_file
             .vtu, .xdmf: triangles and segments in the same file, not in a second file NAME_surface.
         gzip
-            OpenFOAM: packed files.
+            OpenFOAM: compressed files.
         shells
             .inp: triangles as shell elements, too.
         order, names, only, each_region, scale
-            As `holdfast.convert` takes them: elements of first or second order, names of ids, a part, a file for each
+            As in `holdfast.convert`: elements of first or second order, names of ids, a part, a file for each
             region, another unit. The mesh itself stays as it is.
         compress
-            .vtu: blocks packed by zlib, by `threads` threads.
+            .vtu: blocks compressed by zlib, on `threads` threads.
         time_limit, memory_limit, cancel, progress
-            As `mesh` takes them.
+            As in `mesh`.
 
         Returns
         -------
         list of str
-            What the format does not hold, a sentence each.
+            What the format cannot hold, one sentence each.
 
         Raises
         ------

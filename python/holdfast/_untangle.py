@@ -28,7 +28,7 @@ def untangle(
     """Makes every tetrahedron of a mesh positive and keeps its boundary bit for bit.
 
     `fixed` are points to keep besides those of the boundary, triangles and segments; `refill` may add and remove points
-    where moves and exchanges are not enough. `improve` makes elements better once all are positive. It adds and removes
+    where moves and exchanges are not enough. `improve` improves elements once all are positive. It adds and removes
     points, so it needs `refill`. Raises InvalidSurface if the boundary or the connectivity is wrong, NotRepresentable
     if no positive mesh was found, and as `mesh` for limits.
 

@@ -60,7 +60,7 @@ def info(path: PathLike, format: Optional[str] = None) -> dict[str, Any]:
 
 
 def mesh_in(part: Any, options: dict[str, Any]) -> Optional[TetMesh]:
-    """The argument as a mesh if it has tetrahedra, else None. `options` holds the limits for reading a file."""
+    """The argument as a mesh if it has tetrahedra, otherwise None. `options` holds the limits for reading a file."""
     if isinstance(part, TetMesh):
         return part
     if isinstance(part, (str, bytes, os.PathLike)):

@@ -2,7 +2,7 @@
 
     from holdfast.compat import TetGen, tetrahedralize
 
-What cannot be had raises NotImplementedError or says so by a UserWarning; nothing is ignored in silence. The largest
+What is not supported raises NotImplementedError or gives a UserWarning; nothing is silently ignored. The largest
 difference: without the switch Y TetGen may split the surface, and Holdfast never does.
 """
 
@@ -22,7 +22,7 @@ from ._tetmesh import TetMesh
 
 
 def size_of_volume(volume: float) -> float:
-    """The edge of the regular tetrahedron that has a volume."""
+    """The edge of the regular tetrahedron with this volume."""
     return float((6 * math.sqrt(2) * volume) ** (1 / 3))
 
 
@@ -41,13 +41,13 @@ _REFUSED = {
     "d": "use holdfast.diagnose",
     "l": "there is no incremental flip algorithm",
 }
-# Of output, speed and words alone; or what Holdfast does in any case.
+# These only concern output, speed and messages, or what Holdfast does anyway.
 _MEANINGLESS = frozenset("pYQVCzefnENBFJIkgXsxb")
 _WITHOUT_COUNTERPART = frozenset("ODLMST")
 
 
 class Switches:
-    """TetGen's switches, as Holdfast takes them.
+    """TetGen's switches, as Holdfast interprets them.
 
     >>> s = Switches("pq1.4a0.1Y")
     >>> s.quality, s.max_volume
@@ -152,7 +152,7 @@ class TetGen:
         self._holes.append((x, y, z))
 
     def make_manifold(self, verbose: bool = False) -> None:
-        """Not done: Holdfast takes surfaces that are not manifold as they are, and moves nothing."""
+        """Does nothing: Holdfast accepts surfaces that are not manifold, and moves nothing."""
         raise NotImplementedError("make_manifold: Holdfast needs no manifold; holdfast.diagnose says what is wrong, if anything")
 
     def tetrahedralize(
@@ -172,7 +172,7 @@ class TetGen:
         quiet: bool = True,
         **others: Any,
     ) -> tuple[Array, Array]:
-        """Points and tetrahedra. `switches`, if given, counts alone, as in the tetgen package."""
+        """Points and tetrahedra. `switches`, if given, overrides all other options, as in the tetgen package."""
         if order not in (1, 2):
             raise NotImplementedError(f"order={order}: elements are of first or second order")
         if not plc:
@@ -224,7 +224,7 @@ class TetGen:
 
     @property
     def node(self) -> Array:
-        """(n, 3) points, and with order 2 the nodes on edges behind them."""
+        """(n, 3) points, followed by the nodes on edges with order 2."""
         return self._done().nodes
 
     @property
@@ -251,7 +251,7 @@ class TetGen:
         return grid
 
     def write(self, filename: Any, binary: bool = True) -> None:
-        """Writes the mesh; the ending names the format (`TetMesh.save`)."""
+        """Writes the mesh; the ending gives the format (`TetMesh.save`)."""
         self._done().save(filename, compress=binary)
 
 

@@ -1,4 +1,4 @@
-"""One surface on many machines: `holdfast split`, a task a part on an executor or a Dask client, and `holdfast join`.
+"""One surface on many machines: `holdfast split`, one task per part on an executor or a Dask client, and `holdfast join`.
 
 >>> import holdfast.distributed
 >>> holdfast.distributed.mesh("part.stl", "part.vtu", parts=8, size=0.5)  # doctest: +SKIP
@@ -33,7 +33,7 @@ from .errors import (
     TimeLimit,
 )
 
-# A part that takes so many times the median of the others, and at least so long, is run a second time elsewhere.
+# A part that takes this many times the median of the others, and at least this long, is run again elsewhere.
 STRAGGLES_BEYOND = 3.0
 STRAGGLES_AFTER_SECONDS = 10.0
 _POLL_SECONDS = 0.2
@@ -82,11 +82,11 @@ def split(
     surface
         A path, or several.
     folder
-        Gets the parts and manifest.json. Then volumes of an earlier division there are removed.
+        Gets the parts and manifest.json; volumes of an earlier division there are removed.
     parts
-        How many.
+        The number of parts.
     options
-        Of `mesh`, those that `holdfast split` has: size, keep, holes, regions, drop_outside, seed, threads, time_limit,
+        Options of `mesh` that `holdfast split` has: size, keep, holes, regions, drop_outside, seed, threads, time_limit,
         memory_limit.
 
     Raises
@@ -115,29 +115,29 @@ def mesh_parts(
     memory_limit: Optional[MemoryAmount] = None,
     progress: Optional[Progress] = None,
 ) -> list[Row]:
-    """Meshes the parts that have no volume yet, each in a process of its own.
+    """Meshes the parts that have no volume yet, each in its own process.
 
-    A part whose worker is lost runs again on another. One that takes much longer than the others runs a second time where
-    there is room, and the first result counts: both are the same, bit for bit, and appear complete or not at all.
+    A part whose worker is lost runs again on another. One that takes much longer than the others runs a second time if
+    a worker is free, and the first result counts: both are the same, bit for bit, and appear complete or not at all.
 
     Parameters
     ----------
     client
         A Dask client or a `concurrent.futures` executor, whose workers see the folder; None: `jobs` threads here.
     threads, time_limit, memory_limit
-        Of each part.
+        For each part.
     progress
-        Called with (row, how many are finished, how many there are).
+        Called with (row, number finished, number of all).
 
     Returns
     -------
-    A dict a part, in their order, as `holdfast.batch` gives them.
+    One dict per part, in order, as in `holdfast.batch`.
     """
     limits = [] if time_limit is None else ["--time-limit", repr(float(time_limit))]
     memory = bytes_of(memory_limit)
     limits += [] if memory is None else ["--memory-limit", repr(memory / 1e9)]
     arguments = ("--threads", str(threads), *limits)
-    # Workers may be in another folder.
+    # Workers may have another working folder.
     tasks = [Task(os.path.abspath(division.surface(p)), os.path.abspath(division.volume(p)), arguments, time_limit,
                   division.volume(p).suffix) for p in division.parts]
     rows: dict[str, Row] = {}
@@ -165,7 +165,7 @@ def mesh_parts(
 
 
 class _Race:
-    """Runs tasks on an executor, and a task a second time if its first run straggles."""
+    """Runs tasks on an executor, and runs stragglers a second time."""
 
     def __init__(self, executor: Any, finish: typing.Callable[[Row], None]) -> None:
         self._executor = executor
@@ -218,7 +218,7 @@ class _Race:
         self._finish(row)
 
     def _stragglers(self, left: dict[str, Task], doubled: set[str]) -> list[Task]:
-        """Only when no task waits any more: a second run must not delay a first run."""
+        """Only when no task waits: a second run must not delay a first run."""
         if not self._took or len(left) > self._room():
             return []
         late = max(STRAGGLES_AFTER_SECONDS, STRAGGLES_BEYOND * statistics.median(self._took))
@@ -227,7 +227,7 @@ class _Race:
                 if task.output in left and task.output not in doubled and now - self._started[future] > late]
 
     def _room(self) -> int:
-        """Half of the workers: the other half is idle."""
+        """Half of the workers, when the other half is idle."""
         if self._is_dask:
             return int(sum(w["nthreads"] for w in self._executor.scheduler_info().get("workers", {}).values())) // 2
         return int(getattr(self._executor, "_max_workers", 0)) // 2
@@ -241,7 +241,7 @@ class _Race:
 
 
 def join(folder: PathLike, output: PathLike) -> Path:
-    """Puts the volumes of a division together (`holdfast join`). Raises HoldfastError."""
+    """Joins the volumes of a division (`holdfast join`). Raises HoldfastError."""
     _run("join", os.fspath(folder), "-o", os.fspath(output), "-q")
     return Path(output)
 
@@ -275,22 +275,22 @@ def mesh(
     surface
         A path, or several.
     output
-        Gets the joined volume; None: the parts stay as they are.
+        Gets the joined volume; None: the parts are not joined.
     parts
-        How many; more than workers, so that a lost worker costs little.
+        The number of parts; more than workers, so that a lost worker costs little.
     folder
-        For the parts (default: `output` without its ending, with ".parts"). What is done there of the same call goes on.
+        For the parts (default: `output` without its ending, with ".parts"). Finished parts of the same call are kept.
     client
         A Dask client or a `concurrent.futures` executor, whose workers see `folder`; None: `jobs` threads here.
     threads, time_limit, memory_limit
-        Of each part.
+        For each part.
     options
-        Of `split`.
+        Options of `split`.
 
     Raises
     ------
     HoldfastError
-        If a part was not done; the others stay, and the same call goes on with it.
+        If a part failed; the others stay, and the same call continues with it.
     """
     if folder is None:
         if output is None:

@@ -1,4 +1,4 @@
-"""Exceptions of calls that fail. Nothing here ends the process, prints or handles signals."""
+"""Exceptions of calls that fail. Nothing here ends the process, prints, or handles signals."""
 
 from __future__ import annotations
 

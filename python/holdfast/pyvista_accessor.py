@@ -1,4 +1,4 @@
-"""`surface.holdfast.mesh(...)` on PyVista's PolyData, where PyVista has accessors; loaded by its entry point."""
+"""`surface.holdfast.mesh(...)` on PyVista's PolyData, if PyVista has accessors; loaded by its entry point."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._mesh import mesh
 
 
 class HoldfastAccessor:
-    """What PyVista hands out as `surface.holdfast`."""
+    """The accessor `surface.holdfast` of PyVista."""
 
     def __init__(self, surface: Any) -> None:
         self._surface = surface
@@ -25,7 +25,7 @@ class HoldfastAccessor:
 
 
 def register() -> bool:
-    """Adds the accessor to PyVista; False where PyVista is missing or has no accessors."""
+    """Adds the accessor to PyVista; returns False if PyVista is missing or has no accessors."""
     try:
         pyvista = importlib.import_module("pyvista")
     except ImportError:
