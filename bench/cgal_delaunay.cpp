@@ -40,7 +40,7 @@ void triangulate(const Points& points) {
 }
 
 void triangulate_in_parallel(const Points& points, int threads) {
-  constexpr int kLockGrid = 50;  // cells an axis, as in CGAL's example
+  constexpr int kLockGrid = 50;  // cells per axis, as in CGAL's example
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   ParallelDelaunay::Lock_data_structure locks(CGAL::bbox_3(points.begin(), points.end()), kLockGrid);

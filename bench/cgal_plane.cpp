@@ -1,5 +1,5 @@
-// Times, by the processor, CGAL's constrained Delaunay triangulation in the plane of a two-dimensional .poly
-// without markers: points with its spatial sort, then the segments, which must not cross.
+// Times, in processor time, CGAL's constrained Delaunay triangulation of a two-dimensional .poly without
+// markers: points with its spatial sort, then the segments, which must not cross.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -1,4 +1,4 @@
-// Time per call of the exact predicates, by tier: what a change to src/exact is measured with.
+// Time per call of the exact predicates, by tier, to measure changes to src/exact.
 //
 //   ninja exact_predicates_bench && ./exact_predicates_bench
 #include <benchmark/benchmark.h>

@@ -11,15 +11,15 @@
 
 namespace {
 
-constexpr double kMostQ = 1e6;  // so that one flat element does not make the mean
-// Degrees: an angle so near to 10, 20 or 30 is not below it. Boxes make many that are round numbers.
+constexpr double kMostQ = 1e6;  // so that one flat element does not dominate the mean
+// In degrees: an angle this close to 10, 20 or 30 is not below it. Boxes have many round angles.
 constexpr double kRoundAngle = 1e-6;
 
 bool is_finite(const holdfast::Point& p) {
   return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
 }
 
-// A peer's file with a vertex that is no place has no mesh.
+// A peer's file with a vertex that is not finite has no mesh.
 holdfast::Volume read(const char* file) {
   holdfast::Volume volume = holdfast::read_volume(file);
   if (!std::all_of(volume.vertices.begin(), volume.vertices.end(), is_finite)) volume.tetrahedra.clear();
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     for (const holdfast::Tetrahedron& t : volume.tetrahedra) {
       const auto& v = volume.vertices;
       const std::array<double, 6> angles = holdfast::dihedral_angles(v[t[0]], v[t[1]], v[t[2]], v[t[3]]);
-      // Angles of a null element may be no numbers.
+      // Angles of a null element may be NaN.
       const bool is_null = std::any_of(angles.begin(), angles.end(), [](double x) { return std::isnan(x); });
       const double low = is_null ? 0 : *std::min_element(angles.begin(), angles.end());
       least = std::min(least, low);
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
       }
     }
     for (double& x : volume_below) x *= whole != 0 ? 100 / whole : 0;
-    // Some programs write files without elements: JSON has no word for their means.
+    // Some programs write files without elements, and JSON cannot express their means.
     const auto count = static_cast<double>(std::max<std::size_t>(volume.tetrahedra.size(), 1));
     const auto percent = [&](std::size_t k) { return 100 * static_cast<double>(below[k]) / count; };
     std::printf(

@@ -21,7 +21,7 @@
 
 namespace {
 
-constexpr double kLong = 0.05;  // seconds: what Limits promises
+constexpr double kLong = 0.05;  // in seconds, the promise of Limits
 
 struct Gap {
   double seconds;
@@ -40,7 +40,7 @@ double cpu_time(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Asks the calling thread where it is when it has not looked for longer than it should.
+// Asks the calling thread where it is if it has not checked the limits for longer than promised.
 void watch(pthread_t caller, const std::atomic<bool>& done) {
   clockid_t clock{};
   pthread_getcpuclockid(caller, &clock);

@@ -1,6 +1,6 @@
-// Memory that the machine has at hand, for programs that are timed. Virtual machines give memory that is free
-// back to their host within seconds, from which it comes again at a few hundred MB/s: whoever took it first
-// would pay for that with most of its time.
+// Prepares memory for programs that are timed. Virtual machines return free memory to their host within
+// seconds, and get it back at a few hundred MB/s: the first program to use it would spend most of its time on
+// that.
 #pragma once
 
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
-// Runs TetGen's library on a .node file: its own time of the Delaunay triangulation goes to standard output.
-// In a program of ours, because memory has to be ready after the file is read.
+// Runs TetGen's library on a .node file: prints its own time of the Delaunay triangulation. A separate
+// program, because memory must be ready after the file is read.
 #include <tetgen.h>
 
 #include <iostream>

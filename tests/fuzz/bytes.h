@@ -1,5 +1,4 @@
-// What every fuzz target needs: values out of the bytes of the fuzzer, files, and the end of a run that went
-// wrong.
+// Shared by all fuzz targets: values from the fuzzer's bytes, files, and the end of a failed run.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +17,15 @@
 
 namespace holdfast::fuzz {
 
-/// libFuzzer keeps the input of a process that aborts; the program for stored inputs tells which it was.
+/// libFuzzer keeps the input of a process that aborts; the program for stored inputs reports which one it
+/// was.
 inline void require(bool holds, const std::string& what) {
   if (holds) return;
   std::fprintf(stderr, "FAILED: %s\n", what.c_str());
   std::abort();
 }
 
-/// Reads values from the front; zeros when there are no more bytes.
+/// Reads values from the front; zeros after the last byte.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
@@ -43,7 +43,7 @@ class Bytes {
   /// 0 to count - 1; 0 if there is none.
   Index below(std::size_t count) { return count == 0 ? 0 : static_cast<Index>(byte() % count); }
 
-  /// Any double whatever, bit by bit.
+  /// An arbitrary double, bit by bit.
   double raw() {
     std::uint64_t bits = 0;
     for (int k = 0; k < 8; ++k) bits = bits << 8u | byte();
@@ -52,7 +52,7 @@ class Bytes {
     return value;
   }
 
-  /// Mostly small whole numbers, which fall together and into common planes; now and then any double.
+  /// Mostly small whole numbers, which often coincide and lie in common planes; sometimes any double.
   double coordinate() {
     const std::uint8_t value = byte();
     if (value == 255) return raw();
@@ -71,7 +71,7 @@ class Bytes {
   std::span<const std::uint8_t> rest_;
 };
 
-/// A folder of its own that goes with the process; in memory where that is possible.
+/// A folder that is removed with the process; in memory if possible.
 class Folder {
  public:
   Folder() {

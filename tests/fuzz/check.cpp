@@ -1,4 +1,4 @@
-// Any arrays whatever as a surface and a volume: `check` says of each rule whether it holds, and ends.
+// Arbitrary arrays as a surface and a volume: `check` says of each rule whether it holds, and terminates.
 #include "holdfast/check.h"
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Bytes as a complex and all options, meshed and checked: the promise is kept, or one of the outcomes that
-// the header names. The arrays that came in are as they were.
+// Bytes as a complex and all options, meshed and checked: the promise is kept, or the outcome is one that the
+// header names. The input arrays are unchanged.
 #include <stdexcept>
 #include <vector>
 
@@ -14,7 +14,8 @@ using fuzz::Bytes;
 
 constexpr std::size_t kMostVertices = 24, kMostFacets = 48;
 
-// Either as it comes, or without what makes it invalid: mostly the latter, since little that comes is valid.
+// The raw surface, or one without what makes it invalid: mostly the latter, because few raw surfaces are
+// valid.
 Surface surface_from(Bytes& bytes) {
   const std::uint8_t how = bytes.byte();
   const bool filtered = how % 8 != 0;
@@ -52,7 +53,7 @@ double extent(const Surface& surface) {
   return largest;
 }
 
-// Not so small that there would be no end of points.
+// Not so small that the number of points explodes.
 Sizes sizes_from(Bytes& bytes, const Surface& surface) {
   Sizes sizes;
   const double whole = extent(surface);
@@ -89,7 +90,7 @@ Options options_from(Bytes& bytes, const Surface& surface) {
     options.holes.push_back(bytes.point());
     options.regions.push_back({bytes.point(), bytes.byte()});
   }
-  // The callback is asked at intervals: what would take long is cancelled.
+  // The callback is called at intervals: long runs are cancelled.
   int calls = 200;
   if (bytes.byte() % 16 == 1) calls = bytes.byte();
   options.progress = [calls](const Progress&) mutable { return --calls >= 0; };

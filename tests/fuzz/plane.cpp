@@ -1,5 +1,5 @@
 // Bytes as points and segments in the plane, in a file or not: every method gives positive triangles of the
-// same area, or names a defect; refinement ends.
+// same area, or names a defect; refinement terminates.
 #include "holdfast/plane.h"
 
 #include <stdexcept>
@@ -17,7 +17,7 @@ using fuzz::Bytes;
 
 constexpr std::size_t kMostPoints = 40, kMostSegments = 60;
 
-// Either as it comes, or without what makes it invalid.
+// The raw plane, or one without what makes it invalid.
 Plane plane_from(Bytes& bytes) {
   const bool filtered = bytes.byte() % 8 != 0;
   Plane plane;

@@ -1,5 +1,5 @@
-// Any bytes as a size field of any format: read, or refused with a FileError; what is read can be asked
-// anywhere, and answers with sizes that are none or positive.
+// Arbitrary bytes as a size field of any format: read, or refused with a FileError; a field that is read can
+// be evaluated anywhere, and its sizes are absent or positive.
 #include <array>
 #include <vector>
 

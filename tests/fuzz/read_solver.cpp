@@ -1,5 +1,5 @@
-// Any bytes as a volume of a solver's format: read, or refused with a FileError; what is read is in range,
-// and is written and read again in a format that holds everything.
+// Arbitrary bytes as a volume of a solver's format: read, or refused with a FileError; a volume that is read
+// is in range, and can be written and read again in a format that holds everything.
 //
 // The first byte chooses the format, the rest is the file.
 #include <array>

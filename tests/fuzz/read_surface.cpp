@@ -1,6 +1,7 @@
-// Any bytes as a surface of any format: read, or refused with a FileError; what is read can be examined.
+// Arbitrary bytes as a surface of any format: read, or refused with a FileError; a surface that is read can
+// be examined.
 //
-// The first byte chooses the format, the rest is the file (files, where one format needs several).
+// The first byte chooses the format, the rest is the file (or files, if a format needs several).
 #include <array>
 #include <vector>
 

@@ -1,5 +1,5 @@
-// Any bytes as a volume of any format: read, or refused with a FileError; what is read can be checked, and
-// written and read again without loss.
+// Arbitrary bytes as a volume of any format: read, or refused with a FileError; a volume that is read can be
+// checked, and written and read again without loss.
 //
 // The first byte chooses the format, the second that of the copy, the rest is the file or the files.
 #include <array>
@@ -41,7 +41,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::Folder folder;
   fuzz::Bytes bytes(data, size);
   const auto& format = kFormats[bytes.below(kFormats.size())];
-  const std::size_t copy = bytes.below(4);  // .msh orders the tetrahedra by region
+  const std::size_t copy = bytes.below(4);  // .msh sorts the tetrahedra by region
   folder.empty();
   folder.write_parts(bytes.text(), {format.data(), format[1] == nullptr ? 1u : 4u});
   Volume volume;

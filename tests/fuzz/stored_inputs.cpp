@@ -1,4 +1,4 @@
-// Runs a fuzz target over files, without libFuzzer: what was found once stays mended, with any compiler.
+// Runs a fuzz target on files, without libFuzzer: inputs that failed once are tested with any compiler.
 //
 //   TARGET FOLDER_OR_FILE...
 #include <iterator>

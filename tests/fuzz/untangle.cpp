@@ -1,5 +1,5 @@
-// Bytes as a volume mesh, mostly a Delaunay mesh whose vertices have moved: made positive and kept as the
-// header says, or refused.
+// Bytes as a volume mesh, mostly a Delaunay mesh whose vertices have moved: made positive with its boundary
+// kept as the header says, or refused.
 #include "holdfast/untangle.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Volume volume_from(Bytes& bytes) {
   }
   volume.tetrahedra = delaunay(volume.vertices, 1 + how % 4u);
   const std::size_t n = volume.vertices.size();
-  if (how % 8 == 7)  // any tetrahedra
+  if (how % 8 == 7)  // arbitrary tetrahedra
     for (std::size_t k = bytes.byte() % 12; k > 0; --k)
       volume.tetrahedra.push_back(
           {bytes.below(n + 1), bytes.below(n + 1), bytes.below(n + 1), bytes.below(n + 1)});

@@ -1,5 +1,5 @@
-// check() on arrays that make no sense: it answers, and never follows a wrong index. Meant to run under
-// the sanitizers too.
+// check() on arrays that make no sense: it answers, and never follows a wrong index. Also run under the
+// sanitizers.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -10,7 +10,7 @@
 namespace holdfast::check_cases {
 namespace {
 
-/// Random surfaces and volumes of which each part may be wrong in its own way.
+/// Random surfaces and volumes, each part of which may be wrong in its own way.
 class Garbage {
  public:
   explicit Garbage(unsigned seed) : random_(seed), wild_indices_(one_in(3)), wild_numbers_(one_in(3)) {
@@ -33,7 +33,7 @@ class Garbage {
     labels(made.volume.segment_markers, made.volume.segments.size());
     made.options.outside_dropped = one_in(2);
     made.options.box = one_in(2);
-    // Facets that are faces, as random ones seldom are.
+    // Facets that are faces, which random ones seldom are.
     for (const Tetrahedron& t : made.volume.tetrahedra)
       if (one_in(2)) made.surface.facets.push_back({t[2], t[0], t[3]});
   }

@@ -1,6 +1,6 @@
-// check() against slow oracles: random piles of tetrahedra on a small grid of integers, where all pairs of
-// tetrahedra are tested by separating planes in integers; and random cells, where regions and enclosed
-// voids are counted by flooding cells.
+// check() against slow oracles: random piles of tetrahedra on a small integer grid, where all pairs of
+// tetrahedra are tested by separating planes in integers; and random cells, where regions and enclosed voids
+// are counted by flooding cells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,8 +44,8 @@ bool separates(const Vector& normal, const Corners& s, const Corners& t) {
   return s_high <= t_low || t_high <= s_low;
 }
 
-/// Whether two tetrahedra have inner points in common: no plane along a face of one, or along an edge of
-/// each, separates them.
+/// Whether two tetrahedra have common inner points: no plane along a face of one, or along an edge of each,
+/// separates them.
 bool overlap(const Corners& s, const Corners& t) {
   for (const Corners* of : {&s, &t})
     for (std::size_t i = 0; i < 4; ++i) {
@@ -72,8 +72,8 @@ std::array<Triangle, 4> sides(const Tetrahedron& t) {
   return {{{t[1], t[2], t[3]}, {t[0], t[3], t[2]}, {t[0], t[1], t[3]}, {t[0], t[2], t[1]}}};
 }
 
-/// A pile that grows at random boundary faces, to new vertices or to old ones; sometimes a loose
-/// tetrahedron is added. All are positive and no face has more than two.
+/// A pile that grows at random boundary faces, to new or old vertices; sometimes a loose tetrahedron is
+/// added. All are positive, and no face has more than two.
 class Pile {
  public:
   explicit Pile(unsigned seed) : random_(seed) {
@@ -114,7 +114,7 @@ class Pile {
     return static_cast<Index>(volume.vertices.size() - 1);
   }
 
-  /// Starts with a large tetrahedron, and puts all else near a point that may be inside it.
+  /// Starts with a large tetrahedron, and puts everything else near a point that may be inside it.
   void start_large() {
     const double far = spacing_ * size_;
     volume.vertices = {{0, 0, 0}, {far, 0, 0}, {0, far, 0}, {0, 0, far}};
@@ -133,7 +133,8 @@ class Pile {
     if (std::ranges::find(side, apex) == side.end()) add({side[0], side[1], side[2], apex});
   }
 
-  /// Adds a tetrahedron if it is positive and each of its sides is new, or is alone and turns the other way.
+  /// Adds a tetrahedron if it is positive and each of its sides is new, or has one tetrahedron on the other
+  /// side.
   void add(const Tetrahedron& t) {
     if (volume_of(corners(volume, t)) <= 0) return;
     for (Triangle side : sides(t)) {
@@ -155,7 +156,7 @@ class Pile {
   std::vector<Triangle> turns_;  ///< sides as they turn in their tetrahedra, smallest vertex first
 };
 
-// A mesh has each place once; more is an error of its own.
+// A mesh has each place once; repeats are a separate error.
 bool repeats_a_place(const Volume& volume) {
   std::vector<Point> points = volume.vertices;
   std::ranges::sort(points);
@@ -174,7 +175,7 @@ TEST(CheckAgainstOracle, OverlapIsFoundExactlyWhereItIs) {
       ++overlapping;
       ASSERT_TRUE(found) << seed;
       if (contains(detail(c, "no overlap"), "inside other tetrahedra")) ++covered;
-    } else if (found) {  // no volume in common, but blocks that touch outside common faces
+    } else if (found) {  // no common volume, but blocks that touch outside common faces
       ++touching;
       ASSERT_TRUE(contains(detail(c, "no overlap"), "pairs of boundary faces intersect")) << seed;
     } else {
@@ -187,7 +188,7 @@ TEST(CheckAgainstOracle, OverlapIsFoundExactlyWhereItIs) {
   EXPECT_GT(covered, 10);
 }
 
-/// Cells of a cube of `size` cells that are connected through faces to a given one and have its id.
+/// The cells of a cube of `size` cells that are connected through faces to a given one and have its id.
 class Flood {
  public:
   Flood(int size, const RegionOf& id)

@@ -1,5 +1,5 @@
-// Random point sets in special position: every tetrahedron made on the way must be strictly positive,
-// and the end must be Delaunay against every vertex.
+// Random point sets in special position: every tetrahedron made on the way must be strictly positive, and the
+// result must be Delaunay with respect to every vertex.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ double unit(Random& random) { return std::uniform_real_distribution<double>(-1, 
 struct Family {
   const char* name;
   std::function<Point(Random&)> point;
-  int most = 60;  // points of a small set: fewer where every exact decision takes big integers
+  int most = 60;  // points of a small set: fewer if every exact decision needs big integers
 };
 
 Point jittered(Point p, Random& random) {
@@ -149,7 +149,7 @@ std::vector<Point> sample(const Family& family, std::size_t n, Random& random) {
   return points;
 }
 
-// No vertex at all strictly inside any sphere.
+// Checks that no vertex is strictly inside any sphere.
 std::string global_fault(const TetMesh& mesh) {
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
     if (mesh.is_ghost(t)) continue;
@@ -199,8 +199,8 @@ TEST(DelaunayDegenerate, LargerSets) {
   }
 }
 
-// The theorem at the head of triangulation.h: not only the final cells, but each one that an insertion makes
-// is strictly positive, in any order of insertion.
+// The theorem at the head of triangulation.h: not only the final cells, but every cell that an insertion
+// makes is strictly positive, in any order of insertion.
 TEST(DelaunayDegenerate, NoFlatCellArisesOnTheWay) {
   Random random(5);
   for (const Family& family : families()) {
@@ -240,8 +240,8 @@ TEST(DelaunayDegenerate, OrderIsAPermutation) {
   }
 }
 
-// The last of cospherical vertices is joined to all the others: a tetrahedron for each face of the hull that
-// it is no corner of, instead of up to the square of that.
+// The last of several cospherical vertices is joined to all others: one tetrahedron for each face of the hull
+// of which it is no corner, instead of up to the square of that.
 TEST(DelaunayDegenerate, OneOfManyCosphericalPointsIsACornerOfAllTetrahedra) {
   for (const int norm : {101, 402, 1001}) {
     std::vector<Point> points;

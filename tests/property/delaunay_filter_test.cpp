@@ -1,5 +1,5 @@
-// The stored-sphere filter of cell.h against the exact predicates: where it decides, it is right, on
-// nearly degenerate input at every scale; and it decides nearly always on input in general position.
+// The stored-sphere filter of cell.h against the exact predicates: where it decides, it is right, on nearly
+// degenerate input at every scale; and it nearly always decides on input in general position.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -91,7 +91,7 @@ TEST(DelaunayFilter, DecidesGeneralPosition) {
   EXPECT_LE(half_space.undecided, 10u);
 }
 
-// Points of a coarse grid, moved by a few ulps: cospherical and coplanar but for the last bits.
+// Points of a coarse grid, moved by a few ulps: cospherical and coplanar except for the last bits.
 TEST(DelaunayFilter, RightNearDegeneracyAtEveryScale) {
   Random random(2);
   std::uniform_int_distribution<int> grid(0, 4), ulps(-2, 2), exponent(-70, 70);

@@ -121,7 +121,7 @@ TEST(DelaunayThreads, TheFunctionOfTheLibraryToo) {
     const std::vector<Point> points = sample(family, kMany, 12);
     const std::vector<Tetrahedron> one = delaunay(points, 3, 1);
     for (const unsigned threads : {0u, 2u, 4u}) ASSERT_EQ(one, delaunay(points, 3, threads)) << family.name;
-    // It is the mesh without its ghosts.
+    // The mesh without its ghosts.
     TetMesh mesh = mesh_of(points);
     ASSERT_TRUE(build_delaunay(mesh, {3, 1}, nullptr));
     std::vector<Tetrahedron> finite;
@@ -131,7 +131,7 @@ TEST(DelaunayThreads, TheFunctionOfTheLibraryToo) {
   }
 }
 
-// What makes it so: the numbering of the vertices decides, not the order of their insertion.
+// The reason: the numbering of the vertices decides, not the order of their insertion.
 TEST(DelaunayThreads, AnyOrderOfInsertionGivesTheSameTriangulation) {
   Random random(5);
   for (const Family& family : families()) {

@@ -1,4 +1,4 @@
-// Doubles in kernels: found wherever an exhaustive search finds one, in kernels that are thin, slanted, and
+// Doubles in kernels: found whenever an exhaustive search finds one, in kernels that are thin, slanted, and
 // anywhere among the powers of two.
 #include "mesh/double_in_kernel.h"
 
@@ -23,7 +23,7 @@ std::int64_t between(Random& random, std::int64_t low, std::int64_t high) {
   return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-// Faces that look towards what they see; a mesh without tetrahedra that holds their corners.
+// Faces oriented towards what they see, in a mesh without tetrahedra that has their corners.
 struct Faces {
   TetMesh mesh;
   std::vector<FaceKey> faces;
@@ -61,8 +61,8 @@ std::vector<double> doubles_between(const exact::DoubleGrid& grid, double low, d
   return out;
 }
 
-// A few doubles round `middle`, `spacing` apart there, and faces with large slanted normals near a point
-// among them.
+// A few doubles around `middle`, `spacing` apart, and faces with large slanted normals near a point among
+// them.
 struct Trial {
   Faces faces;
   bool expected = false;
@@ -160,7 +160,7 @@ TEST(DoubleInKernel, AmongTheDenormalsAndOnAGridRoundZero) {
   expect_complete(random, grid, -2, 100);
 }
 
-// All doubles from -1 to 1, among which a search one by one would not end.
+// All doubles from -1 to 1, for which a search one by one would not end.
 TEST(DoubleInKernel, RoundZero) {
   const auto slab = [](const Dyadic& from, const Dyadic& to, const std::array<Dyadic, 3>& n) {
     Faces out;
@@ -188,7 +188,7 @@ TEST(DoubleInKernel, RoundZero) {
   }
 }
 
-// At the far ends: nothing beyond the greatest double, and it itself.
+// At the far ends: nothing beyond the greatest double, and that double itself.
 TEST(DoubleInKernel, AtTheGreatestDouble) {
   const double most = std::numeric_limits<double>::max();
   const ExactPoint at{{Dyadic(most), Dyadic(most), Dyadic(most)}};

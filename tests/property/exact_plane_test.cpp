@@ -1,5 +1,5 @@
-// The plane between exact points: what holds of doubles holds of quotients that no doubles are, and of points
-// that one double stands for.
+// The plane between exact points: what holds for doubles holds for quotients that are not doubles, and for
+// points that share one double.
 #include "plane/exact_plane.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ PlaneOptions options_of(const Way& way, bool delaunay) {
   return options;
 }
 
-/// Calls `visit` with the options of every way, with and without Delaunay.
+/// Calls `visit` with the options of every method, with and without Delaunay.
 template <typename Visit>
 void each_way(Visit&& visit) {
   for (const Way& way : kWays)
@@ -56,7 +56,7 @@ Found solve(const ExactPlane& plane, const PlaneOptions& options) {
   return solve(plane, options, report);
 }
 
-/// (x, y) becomes (x / across, y / up), and if `together` is not 0 one plus 2^-together of that.
+/// Maps (x, y) to (x / across, y / up); if `together` is not 0, to one plus 2^-together of that.
 struct Map {
   int across, up;
   unsigned together = 0;
@@ -73,7 +73,7 @@ struct Map {
     mapped.segments = plane.segments;
     return mapped;
   }
-  /// How much smaller areas become.
+  /// The factor by which areas shrink.
   [[nodiscard]] cpp_rational share() const {
     return cpp_rational(BigInt(1), BigInt(across * up) << (2 * together));
   }
@@ -99,7 +99,7 @@ cpp_rational double_area(const PlaneMesh& mesh) {
   return double_area(points, mesh.triangles);
 }
 
-using Sides = std::map<Segment, Vertex>;  // with the corner on the left of each
+using Sides = std::map<Segment, Vertex>;  // with the corner on the left of each side
 Sides sides_of(const std::vector<Corners3>& triangles) {
   Sides sides;
   for (const Corners3& t : triangles)
@@ -108,7 +108,7 @@ Sides sides_of(const std::vector<Corners3>& triangles) {
   return sides;
 }
 
-/// Those of the segments that are edges of some triangle.
+/// The segments that are edges of some triangle.
 std::set<Segment> laid(const std::vector<Segment>& segments, const std::vector<Corners3>& triangles) {
   const Sides sides = sides_of(triangles);
   std::set<Segment> found;
@@ -117,8 +117,8 @@ std::set<Segment> laid(const std::vector<Segment>& segments, const std::vector<C
   return found;
 }
 
-/// Positive triangles whose border, and whose edges that are not Delaunay if they must be, are segments. With
-/// numbers alone, so that nothing is asked of the filters that are tested.
+/// Positive triangles whose border consists of segments, and so do edges that are not Delaunay if they must
+/// be. Uses only numbers, so that the filters under test are not involved.
 void expect_sound(const ExactPlane& plane, const std::vector<Corners3>& triangles, bool delaunay) {
   std::vector<RationalPoint> at;
   for (Vertex v = 0; v < plane.points.size(); ++v) at.push_back(plane.points.rational(v));
@@ -137,7 +137,7 @@ void expect_sound(const ExactPlane& plane, const std::vector<Corners3>& triangle
   }
 }
 
-/// The triangles of the doubles' images, by every way, beside those of the doubles.
+/// Compares the triangles of the doubles' images, by every method, with those of the doubles.
 void expect_alike(const Plane& plane, const Map& map) {
   const ExactPlane mapped = map(plane);
   each_way([&](const PlaneOptions& options) {
@@ -176,7 +176,7 @@ TEST_P(ExactPlanes, AreTriangulatedAsDoublesAre) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, ExactPlanes, ::testing::Range(0, 6));
 
-/// Where three planes through points of a grid meet, seen along an axis.
+/// The intersection of three planes through points of a grid, seen along an axis.
 RationalPoint common_point(numbers::Random& random) {
   const auto whole = [&] { return static_cast<double>(numbers::below(50, random)); };
   const auto any_plane = [&] {
@@ -191,7 +191,7 @@ RationalPoint common_point(numbers::Random& random) {
   }
 }
 
-/// Some such points, and segments that meet in common ends alone.
+/// Some such points, and segments that only meet in common ends.
 ExactPlane random_exact_plane(std::uint64_t seed) {
   numbers::Random random(seed);
   ExactPlane plane;
@@ -245,7 +245,7 @@ TEST(ExactPlane, KeepsSegmentsBetweenPointsOfThreePlanes) {
   }
 }
 
-/// Segments along closed outlines through whole numbers; each place once.
+/// Segments along closed outlines through whole numbers; each place occurs once.
 Plane outlines_of(const std::vector<std::vector<PlanePoint>>& outlines) {
   Plane plane;
   std::map<PlanePoint, Index> number;
@@ -279,7 +279,7 @@ TEST(ExactPlane, HasRunsOfPointsOnALine) {
 }
 
 TEST(ExactPlane, HasHolesThatTouch) {
-  // The first has a corner with the outline in common, the second one with the first.
+  // The first one has a common corner with the outline, the second one with the first.
   Plane plane =
       outlines_of({{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {{0, 0}, {4, 3}, {3, 3}}, {{4, 3}, {5, 6}, {4, 4}}});
   plane.holes = {{3, 2.5}, {4.25, 4}};

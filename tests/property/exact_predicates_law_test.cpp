@@ -25,7 +25,7 @@ std::string describe(const Case& c) {
   return text;
 }
 
-/// Answers of one tier: nothing where it declines.
+/// The answer of one tier; nullopt if it declines.
 void expect_agrees(std::optional<int> answer, int truth, const char* tier, const Case& c) {
   if (answer) {
     EXPECT_EQ(*answer, truth) << tier << " on " << describe(c);
@@ -39,8 +39,8 @@ void expect_sound(int answer, int truth, const char* filter, const Case& c) {
   }
 }
 
-/// Signs of the first three of some points with each of all, where the filter tells: no wrong one. Returns
-/// how many it leaves open of those that are not coplanar.
+/// Signs of the first three of some points with each of all, if the filter decides: none is wrong. Returns
+/// how many signs of points that are not coplanar it leaves open.
 std::size_t left_open(const std::vector<Point3>& points, const Case& c) {
   const OrientAmong filter(points.size(), [&](std::size_t k) { return points[k].data(); });
   const OrientAmong::Signs signs = filter.of_all(0, 1, 2);
@@ -60,7 +60,7 @@ std::size_t left_open(const std::vector<Point3>& points, const Case& c) {
 TEST(PredicateLaw, TheFilterAmongManyPointsIsSound) {
   Random random(22);
   for (int i = 0; i < 2000; ++i) {
-    // Of one case, and of several of unlike sizes.
+    // From one case, and from several of different sizes.
     std::vector<Case> cases(1 + random() % (OrientAmong::kMost / 5));
     std::vector<Point3> points;
     for (Case& c : cases) {
@@ -83,8 +83,8 @@ TEST(PredicateLaw, TheFilterAmongManyPointsLeavesLittleOpen) {
   EXPECT_LT(open, 10u);
 }
 
-// Of a ring and its two ends, all triangles of the ring. Returns how many signs of those that are not 0 the
-// filter leaves open.
+// All triangles of a ring, with the ring and its two ends. Returns how many nonzero signs the filter leaves
+// open.
 std::size_t left_open_in_ring(const std::vector<Point3>& points, const Case& c) {
   const double *a = points.front().data(), *b = points.back().data();
   const std::size_t n = points.size() - 2;

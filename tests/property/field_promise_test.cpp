@@ -17,7 +17,7 @@ struct Family {
   const char* name;
   std::function<Surface(hard::Random&)> make;
   int count;
-  double size;  // the most; 0: as the surface has it
+  double size;  // the largest; 0: that of the surface
   Keep keep = Keep::automatic;
 };
 

@@ -24,7 +24,7 @@ struct Family {
 
 std::ostream& operator<<(std::ostream& out, const Family& family) { return out << family.name; }
 
-// Sizes with which the mesh is cut into two to eight parts.
+// Sizes for which the mesh is cut into two to eight parts.
 const Family kFamilies[] = {
     {"sphere", [](hard::Random&) { return hard::icosphere(5); }, 0.045},
     {"nested_spheres", hard::nested_spheres, 0.045},
@@ -93,7 +93,7 @@ TEST(FieldThreadsMonitor, CallsBackOnTheCallersThreadAloneAndHearsItThere) {
   }
 }
 
-// Parts that are joined in the middle.
+// Parts that are joined before the end.
 TEST(FieldThreadsStop, AfterFieldPointsMakesNoDifference) {
   const Surface sphere = hard::icosphere(4);
   Options options = two_threads(0.045);

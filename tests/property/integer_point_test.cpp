@@ -1,4 +1,4 @@
-// Integer points of polytopes: found wherever an exhaustive search finds one, and never elsewhere, also where
+// Integer points of polytopes: found whenever an exhaustive search finds one, and never elsewhere, even if
 // the polytope is long, slanted and thinner than the lattice.
 #include "exact/integer_point.h"
 
@@ -23,7 +23,7 @@ long between(Random& random, long low, long high) {
   return std::uniform_int_distribution<long>(low, high)(random);
 }
 
-// Half-spaces whose borders pass near a point of the box, at heights that are no integers.
+// Half-spaces whose borders pass near a point of the box, at heights that are not integers.
 Problem random_problem(Random& random, int dimension) {
   Problem out{dimension, between(random, 1, 6), {}};
   const long denominator = between(random, 1, 12);

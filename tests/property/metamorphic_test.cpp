@@ -1,4 +1,4 @@
-// What must not change the outcome: scaling by a power of two, permuted axes, reflections (with facets
+// Maps that must not change the outcome: scaling by a power of two, permuted axes, reflections (with facets
 // reversed), exact translations; of meshes with and without field points, and of untangling.
 #include <gtest/gtest.h>
 
@@ -96,7 +96,7 @@ Volume meshed(const Surface& surface, double size, const std::string& name) {
 
 constexpr double kSize = 0.2;
 
-// The mesher works on the same numbers: so the mesh is the same, bit for bit.
+// The mesher works on the same numbers, so the mesh is the same, bit for bit.
 TEST(Metamorphic, ScalingByPowersOfTwoScalesTheMesh) {
   for (const double size : {0.0, kSize}) {
     std::size_t number = 0;
@@ -133,7 +133,7 @@ TEST(Metamorphic, FieldPointsAmongTheDenormals) {
   EXPECT_GT(found.vertices.size(), 20u);
 }
 
-// Two components whose sizes are so far apart that none suits both: each has its field points.
+// Two components whose sizes differ so much that no scale suits both: each has its field points.
 TEST(Metamorphic, FieldPointsInComponentsOfDifferentSize) {
   const Surface small_part = surfaces()[0], large_part = small::box({-6, -6, -6}, {-4, -4, -4});
   for (const auto& [low, high] : {std::pair{0, 400}, {0, 1000}, {-500, 500}, {-1000, 0}, {-1020, 1018}}) {
@@ -157,7 +157,7 @@ TEST(Metamorphic, FieldPointsInComponentsOfDifferentSize) {
   }
 }
 
-// Inner vertices go astray, half of them far.
+// Moves inner vertices astray, half of them far.
 Volume tangled(const Surface& surface) {
   Volume volume = meshed(surface, kSize, "to be tangled");
   std::mt19937_64 random(7);

@@ -1,5 +1,5 @@
-// Surfaces at the ends of what doubles can tell, each with a mesh in doubles that is known to exist: all end
-// with one. HOLDFAST_NUMBER_RANGE=from,to meshes those of these numbers, and tells which fail.
+// Surfaces at the ends of the range of doubles, each known to have a mesh in doubles: every run finds one.
+// HOLDFAST_NUMBER_RANGE=from,to meshes the surfaces with these numbers, and reports failures.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -21,7 +21,7 @@ std::string broken_rules(const Surface& surface, const Volume& volume) {
   return text;
 }
 
-// What is wrong with the meshes of a surface, or nothing.
+// The faults of a surface's meshes; empty if there are none.
 std::string fault_of(const Case& task, bool flips) {
   Options options;
   options.flips = flips;
@@ -49,7 +49,7 @@ TEST(NumberRange, SurfacesWithAMeshInDoublesGetOne) {
   expect_meshes(from, to);
 }
 
-// Kernels thinner than an ulp and slanted: the doubles inside are not next to the centre of any ball.
+// Kernels that are thinner than an ulp and slanted: the doubles inside are not near the centre of any ball.
 TEST(NumberRange, ShearedPrismFarFromTheOrigin) {
   for (const double twist : {20.0, 30.0, 40.0}) {
     Surface s = number_range::schoenhardt(6, 6, twist);

@@ -1,5 +1,5 @@
-// What with_other_diagonals says fits together does: random triangles on small grids, where much is coplanar
-// and cospherical and little of it fits, against the exact test of all pairs.
+// What with_other_diagonals declares fitting does fit: random triangles on small grids, where much is
+// coplanar and cospherical and little fits, against the exact test of all pairs.
 #include "recover/other_diagonals.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// Round the edge 0 1 of their Delaunay mesh.
+// Around the edge 0 1 of their Delaunay mesh.
 const std::vector<Point> kSpindle{{0, 0, -0.5}, {0, 0, 0.5}, {-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
 
 struct Told {
@@ -61,7 +61,7 @@ std::vector<Point> grid_points(int size) {
   return points;
 }
 
-// The squares of a grid of cells, each left out or divided along a diagonal at random.
+// The squares of a grid of cells, each omitted or divided along a diagonal at random.
 Surface divided_squares(int size, Random& random, unsigned percent) {
   Surface surface = small::surface_of(grid_points(size), {});
   const auto at = [&](int x, int y, int z) { return static_cast<Index>(x + size * (y + size * z)); };
@@ -122,7 +122,7 @@ TEST(OtherDiagonals, FitWhateverElseIsThere) {
   EXPECT_GT(left_out, 1000u);
 }
 
-// Two squares through one diagonal that the mesh has, so that each of them alone would do.
+// Two squares with one common diagonal, which is in the mesh, so that either of them alone would fit.
 TEST(OtherDiagonals, TwoOfOneDiagonalAreLeftOut) {
   const std::vector<Triangle> one{{2, 3, 0}, {2, 3, 1}}, other{{4, 5, 0}, {4, 5, 1}};
   Surface surface = small::surface_of(kSpindle, one);
@@ -140,7 +140,7 @@ TEST(OtherDiagonals, ASegmentInThePlaceOfOneIsLeftOut) {
 }
 
 TEST(OtherDiagonals, BentOnesAndOverlapsAreLeftOut) {
-  // Bent by little, and with a corner inside, where the facets overlap.
+  // Slightly bent, and with a corner inside, where the facets overlap.
   for (const Point& corner : {Point{0, 0x1p-50, 0.5}, Point{0, 0, -0.25}}) {
     std::vector<Point> points = kSpindle;
     points[1] = corner;
@@ -149,7 +149,7 @@ TEST(OtherDiagonals, BentOnesAndOverlapsAreLeftOut) {
   }
 }
 
-// The ring about the edge 4 5 has the quadrilateral's sides, but the mesh has no face of it.
+// The ring around the edge 4 5 has the quadrilateral's sides, but none of the mesh's faces.
 TEST(OtherDiagonals, PiercedOnesAreLeftOut) {
   std::vector<Point> points = kSpindle;
   points[0] = {0, 0, -1};

@@ -1,5 +1,5 @@
 // Refinement in the plane: positive, constrained Delaunay triangles whose angles and edges keep the bounds,
-// but where the input itself has small angles; on any input it ends.
+// except where the input itself has small angles; it terminates for every input.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ double area_of(const PlaneMesh& mesh) {
   return sum;
 }
 
-/// The points of the input stand first, bit for bit, and pieces of segments lie on them within rounding.
+/// The points of the input come first, bit for bit, and pieces of segments lie on them within rounding.
 void expect_kept(const Plane& plane, const PlaneMesh& mesh) {
   ASSERT_GE(mesh.points.size(), plane.points.size());
   for (std::size_t v = 0; v < plane.points.size(); ++v) ASSERT_EQ(mesh.points[v], plane.points[v]);
@@ -66,7 +66,7 @@ TEST(PlaneRefinement, KeepsItsBoundsOnRandomInputs) {
     const Plane plane = random_plane(seed, 25);
     double most = 0;
     for (const PlanePoint& p : plane.points) most = std::max({most, std::abs(p[0]), std::abs(p[1])});
-    const bool fine = most > 0x1p-1000 && most < 0x1p50;  // where doubles leave room for points
+    const bool fine = most > 0x1p-1000 && most < 0x1p50;  // doubles leave room for points
     for (const double angle : {20.0, 26.45, 30.0}) {
       PlaneOptions options;
       options.method = values_of<PlaneMethod>()[seed % values_of<PlaneMethod>().size()];

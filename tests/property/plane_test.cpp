@@ -57,7 +57,7 @@ TEST_P(PlaneMethods, SolveRandomInputsAlike) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, PlaneMethods, ::testing::Range(0, 5));
 
-// One flaw in a valid input: it is named, with the entities that it was made of.
+// One defect in a valid input: it is reported, with the entities that cause it.
 TEST(PlaneDefects, AreNamed) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
@@ -122,7 +122,7 @@ TEST(PointTree, FindsEveryPointInATriangle) {
     numbers::Random random(7);
     plane::Points points;
     std::vector<plane::Vertex> vertices;
-    // Corners of triangles may lie outside of all points of the tree.
+    // Corners of triangles may lie outside all points of the tree.
     constexpr plane::Vertex kPlanted = 500;
     for (plane::Vertex v = 0; v < 700; ++v) {
       points.add(random_point(kind, 40, random));
@@ -185,7 +185,7 @@ TEST(NumberSet, FindsTheNextNumber) {
   }
 }
 
-// Before the rows are asked for, and afterwards.
+// Before the rows are computed, and afterwards.
 TEST(VertexSet, FindsThoseBetweenTwoHeights) {
   for (const Coordinates kind : {Coordinates::grid, Coordinates::random, Coordinates::tiny, Coordinates::huge,
                                  Coordinates::at_2_52, Coordinates::clustered}) {
@@ -230,7 +230,7 @@ TEST(VertexSet, FindsThoseBetweenTwoHeights) {
 TEST(Sequence, KeepsAnOrder) {
   constexpr std::size_t kBound = 700;
   numbers::Random random(3);
-  // Numbers stand in the order of their heights.
+  // The order of numbers is that of their heights.
   std::vector<std::uint64_t> height(kBound);
   for (std::uint64_t& h : height) h = random();
   plane::Sequence sequence(kBound);

@@ -1,4 +1,4 @@
-// The promise of docs/concepts.md on random complexes: through the public API, judged by the independent
+// The promise of docs/concepts.md on random complexes: through the public API, checked by the independent
 // check.
 //
 // HOLDFAST_SEEDS=k takes k times as many complexes of each family.
@@ -85,7 +85,7 @@ TEST_P(Promise, IsKept) {
     EXPECT_EQ(broken_rules(surface, result.volume, family.keep == Keep::box), "") << k;
     EXPECT_EQ(result.report.unrounded_points, 0u) << k;
   }
-  // An honest "not in doubles" may be rare, where flips may not help.
+  // An honest "not in doubles" may occur rarely if flips do not help.
   EXPECT_LE(20 * without_doubles, runs) << without_doubles << " of " << runs;
 }
 

@@ -1,6 +1,6 @@
-// Property tests of the diagnosis: random small complexes against the all-pairs oracle of
-// surface_oracle.h. The oracle sees small integers; the library sees their image under an integer affine
-// map with large entries, which moves the axes and the filters but not the truth.
+// Property tests of the diagnosis: random small complexes against the all-pairs oracle of surface_oracle.h.
+// The oracle sees small integers; the library sees their image under an integer affine map with large
+// entries, which changes the axes and the filters but not the truth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ Sample make_sample(const Shape& shape, Random& random) {
 
 // --- What the library says ----------------------------------------------------------------------
 
-// An integer matrix of determinant other than 0, an offset and a power of two.
+// An integer matrix with a nonzero determinant, an offset and a power of two.
 struct Map {
   std::array<std::array<double, 3>, 3> matrix{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   Point offset{0, 0, 0};
@@ -100,8 +100,8 @@ Surface image(const Sample& sample, const Map& map) {
 
 PairKey key(ElementKey a, ElementKey b) { return {std::min(a, b), std::max(a, b)}; }
 
-// The pairs of elements that follow from a defect (surface/diagnose.h): those with the first simplex as a
-// face, by those with the second.
+// The pairs of elements implied by a defect (surface/diagnose.h): those with the first simplex as a face,
+// combined with those with the second.
 void expand(const Defect& defect, const Truth& truth, std::set<PairKey>& pairs) {
   std::vector<Index> first, second;
   const auto& v = defect.vertices;
@@ -144,7 +144,7 @@ void expand(const Defect& defect, const Truth& truth, std::set<PairKey>& pairs) 
   }
 }
 
-// The interiors of the two simplices that the defect names do meet.
+// The interiors of the two simplices that the defect names must meet.
 void expect_true(const Defect& defect, const Sample& sample, const Truth& truth) {
   const auto points = [&](const std::vector<Index>& vertices) {
     std::vector<IntPoint> result;
@@ -190,7 +190,7 @@ std::set<PairKey> pairs_with_every_means(const Complex& complex) {
   return pairs;
 }
 
-// `mesh` looks for most of the defects in what Delaunay has left missing.
+// `mesh` searches most of the defects among what Delaunay leaves missing.
 void expect_same_from_mesh(const Complex& complex, const std::vector<Defect>& defects) {
   Options options;
   options.stop_after = Stage::delaunay;

@@ -1,4 +1,4 @@
-// Property tests of the search: the tree of boxes, hubs and oriented boxes lose no pair. Here the truth is
+// Property tests of the search: the tree of boxes, hubs and oriented boxes miss no pair. Here the truth is
 // the exact test of all pairs (contacts), which surface_diagnose_test.cpp checks against an oracle.
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ double uniform(Random& random, double low, double high) {
 
 Index below(Random& random, std::size_t n) { return static_cast<Index>(random() % n); }
 
-// --- Shapes that trees of boxes do not like -----------------------------------------------------
+// --- Shapes that are hard for trees of boxes ----------------------------------------------------
 
 // Rotated, so that nothing is parallel to an axis.
 Point rotated(double x, double y, double z) {
@@ -74,7 +74,7 @@ Surface fans(Random& random) {
   return s;
 }
 
-// The pages of a book: facets at one segment, some of them in one half-plane.
+// The pages of a book: facets at one segment, some in one half-plane.
 Surface book(Random& random) {
   Surface s;
   const auto add = [&s](double x, double y, double z) {
@@ -89,7 +89,7 @@ Surface book(Random& random) {
   return s;
 }
 
-// Points on a slanted plane but for rounding: signs that filters cannot tell from zero and that are not.
+// Points on a slanted plane except for rounding: nonzero signs that filters cannot tell from zero.
 Surface almost_flat(Random& random) {
   Surface s;
   for (int i = 0; i < 40; ++i) {
@@ -100,7 +100,7 @@ Surface almost_flat(Random& random) {
   return s;
 }
 
-// Many magnitudes, the ends of the range included.
+// Many magnitudes, including the ends of the range.
 Surface graded(Random& random) {
   Surface s;
   for (int i = 0; i < 60; ++i) {
@@ -146,7 +146,7 @@ void check_with_known(const Complex& complex, const Elements& elements, const Pa
   ASSERT_EQ(all_fit(complex, elements, {}, [](double) {}), all_expected.empty());
 }
 
-/// Facets that fit together may be a sheet; no pair is lost by it.
+/// Facets that fit together may be a sheet; no pair is missed because of it.
 void check_with_sheets(const Complex& complex, const Elements& elements, const Pairs& expected,
                        Random& random) {
   constexpr double kSheets = 3;
@@ -175,8 +175,8 @@ void check_with_sheets(const Complex& complex, const Elements& elements, const P
   }
 }
 
-/// Every element of a pair is found where pairs of two that were found before are passed over, and none of
-/// these pairs is visited.
+/// Every element of a pair is found if pairs of two elements found before are skipped, and none of these
+/// pairs is visited.
 void check_with_found(const Complex& complex, const Elements& elements, const Pairs& all_expected,
                       Random& random) {
   for (const double share : {0.0, 0.9}) {
@@ -273,7 +273,7 @@ TEST(AabbTree, FindsAllOverlaps) {
   }
 }
 
-// Facets on planes through nearly one point near the origin, of all sizes, or far from it.
+// Facets on planes that nearly share a point near the origin, of all sizes, or far from it.
 Surface crossing_sheets(Random& random, std::vector<Index>& sheet) {
   Surface s;
   const double far = below(random, 3) == 0 ? 100 : 0;
@@ -358,8 +358,8 @@ TEST(SheetPairs, StripsSideBySideAreNoPairs) {
   EXPECT_TRUE(sheets.all().empty());
 }
 
-// Facets on planes through one line, at vertices on that; planes may be nearly the same, facets nearly flat,
-// and some corners beside their plane by what rounding does, or by more.
+// Facets on planes through one line, with vertices on the line; planes may be nearly the same, facets nearly
+// flat, and some corners off their plane by rounding or by more.
 Surface sheets_at_a_line(Random& random, bool are_flat, std::vector<Index>& sheet) {
   Surface s;
   constexpr Index kOnLine = 6;

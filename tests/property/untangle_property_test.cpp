@@ -1,4 +1,4 @@
-// Untangling random meshes of hard surfaces: positive with the surface as it was, or refused for a reason.
+// Untangling random meshes of hard surfaces: positive with the surface unchanged, or refused for a reason.
 //
 // HOLDFAST_SEEDS=k takes k times as many meshes of each family.
 #include <gtest/gtest.h>
@@ -58,8 +58,8 @@ void displace(std::vector<Point>& points, std::size_t from, std::size_t to, doub
     for (double& x : points[v]) x += normal(random);
 }
 
-// The regions at every facet, segment's end and facet's corner. A dangling facet that moves into another
-// region has no mesh that is connected as before; an isolated point may, and does.
+// The regions at every facet, segment end and facet corner. A dangling facet that moves into another region
+// has no mesh with the same connectivity; an isolated point may move, and does.
 auto places(const Surface& surface, const Volume& volume) {
   std::map<std::vector<Index>, std::set<int>> regions;
   for (const Segment& segment : surface.segments)
@@ -86,7 +86,7 @@ auto places(const Surface& surface, const Volume& volume) {
 
 class Untangled : public ::testing::TestWithParam<Family> {
  protected:
-  // With the surface's vertices fixed: isolated points too.
+  // With the surface's vertices fixed, including isolated points.
   static UntangleResult untangled(const Surface& surface, const Volume& tangled) {
     UntangleOptions options;
     options.fixed.resize(surface.vertices.size());
@@ -115,7 +115,7 @@ TEST_P(Untangled, InnerVerticesDisplacedOrSurfaceMoved) {
     const std::size_t n = surface.vertices.size();
     const double size = extent(surface.vertices);
 
-    // The corners of a box are the boundary's as well.
+    // The corners of a box also belong to the boundary.
     Volume tangled = filled.volume;
     const std::size_t first_free = n + (options.keep == Keep::box ? 8 : 0);
     displace(tangled.vertices, first_free, tangled.vertices.size(), size * (k % 2 == 0 ? 0.01 : 1), random);
