@@ -1,5 +1,5 @@
 // Memory that runs out: whichever allocation of a call fails, the call ends with std::bad_alloc or its
-// outcome, or does without; nothing leaks, nothing crashes, and what was handed in is as it was.
+// outcome, or does without; nothing leaks or crashes, and the arguments are unchanged.
 //
 // The program's own operator new counts, and fails at a chosen number: once, or from there on.
 #include <gtest/gtest.h>
@@ -70,11 +70,11 @@ namespace {
 
 constexpr long kMostRuns = 400;
 
-// Runs `call` with every allocation failing in turn, or with evenly many of them.
+// Runs `call` with every allocation failing in turn, or with a number of them, evenly chosen.
 //
-// `call` returns whether it came to its usual end; what it throws, other than std::bad_alloc, fails the test.
+// `call` returns whether it completed; an exception other than std::bad_alloc fails the test.
 void expect_to_stand_failures(const std::function<bool()>& call) {
-  ASSERT_TRUE(call());  // and what is made once in a process is made
+  ASSERT_TRUE(call());  // this also makes what a process makes only once
   const long before = allocations;
   ASSERT_TRUE(call());
   const long count = allocations - before;

@@ -1,4 +1,4 @@
-// How calls end that do not end with a whole mesh: refused, interrupted, or after a stage.
+// Calls that do not end with a whole mesh: refused, interrupted, or stopped after a stage.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -131,7 +131,7 @@ TEST(Interruption, ByMemory) {
   expect_empty(result.volume);
 }
 
-/// Takes 0.3 s at the first look, and at the first from a fraction on.
+/// Takes 0.3 s at the first call, and at the first one from a fraction on.
 std::function<bool(double)> slow_at_first_and_from(double second) {
   return [second, next = 0.0](double fraction) mutable {
     if (fraction >= next) {
@@ -142,12 +142,12 @@ std::function<bool(double)> slow_at_first_and_from(double second) {
   };
 }
 
-/// Volumes whose common face each of them has cut otherwise, so that tetrahedra of both are replaced.
+/// Volumes that cut their common face differently, so that tetrahedra of both are replaced.
 std::vector<Volume> shifted_boxes() {
   return {mesh(small::box()).volume, mesh(small::box({1, 0.5, 0}, {2, 1.5, 1})).volume};
 }
 
-// Neither the boundaries nor what is filled again takes longer than the limit, but both together do.
+// Neither the boundaries nor the fillings alone exceed the limit, but together they do.
 TEST(Interruption, ByTheTimeOfAllThatPastingVolumesCalls) {
   PasteOptions options;
   options.time_limit = 0.5;
@@ -175,8 +175,8 @@ TEST(Interruption, ByTheTimeOfAllRepairsThatAProposalTries) {
   EXPECT_THROW(static_cast<void>(propose_cures(surface.view(), defects, summary, options)), Interrupted);
 }
 
-// One of many faces in one plane, on which the surface has some triangles: however late it is cancelled, what
-// comes out is the whole or nothing.
+// A surface has some triangles in one of many faces in one plane: however late it is cancelled, the result is
+// complete or nothing.
 TEST(Interruption, OfAConvexHullLeavesNothingOut) {
   constexpr Index kSide = 30;
   Surface given;
@@ -220,7 +220,7 @@ TEST(Interruption, AtEveryStage) {
   }
 }
 
-// A component too small for the sizes of the other is meshed by a call of its own, after the rest.
+// A component too small for the sizes of the other is meshed by a separate call after the rest.
 TEST(Interruption, InAComponentThatIsMeshedAlone) {
   constexpr double kTiny = 1e-120;
   Surface surface = small::box({-2, -2, -2}, {-1, -1, -1});
@@ -240,8 +240,8 @@ TEST(Interruption, InAComponentThatIsMeshedAlone) {
   expect_empty(result.volume);
 }
 
-// The callback is asked at intervals of time; the fraction is 0 only when a stage begins. However fast the
-// machine is, some surface is large enough that a stage takes longer than the interval.
+// The callback is called at intervals of time, and the fraction is 0 only at the beginning of a stage. On any
+// machine, some surface is so large that a stage takes longer than the interval.
 TEST(Interruption, WithinAStage) {
   Options options;
   options.flips = false;

@@ -77,7 +77,7 @@ TEST(Mesh, SteinerPointOfSchoenhardt) {
   }
 }
 
-// Squares of a plate that is turned, so that their corners lie in one plane but for rounding.
+// Squares of a rotated plate, whose corners are coplanar up to rounding.
 Surface turned_plate() {
   constexpr Index kSquares = 5, kSide = kSquares + 1;
   Surface surface;
@@ -125,7 +125,7 @@ TEST(Mesh, WithoutPointsNoneAreAddedForFlatElements) {
   }
 }
 
-// A ring of points between two far ones: its worst element is no better for a point.
+// A ring of points between two far ones: a point does not improve its worst element.
 TEST(Mesh, PointsThatBetterNothingGoAgain) {
   constexpr Index kRing = 300;
   Surface surface;
@@ -143,7 +143,7 @@ TEST(Mesh, PointsThatBetterNothingGoAgain) {
   EXPECT_EQ(result.report.optimised.points, 0u);
 }
 
-// So many triangles that two threads list its elements and its segments at a time.
+// So many triangles that two threads list its elements and its segments at the same time.
 TEST(Mesh, IndexOutOfRangeIsToldOnTwoThreads) {
   constexpr Index kSide = 80;
   Surface surface;
@@ -344,7 +344,7 @@ TEST(Mesh, NotRepresentable) {
 TEST(Mesh, TheSeedDecidesAndNothingElseDoes) {
   std::set<std::vector<Tetrahedron>> meshes;
   Surface surface = small::box({0, 0, 0}, {4, 4, 4});
-  for (int k = 0; k < 27; ++k)  // any eight of a cell are on one sphere
+  for (int k = 0; k < 27; ++k)  // any eight of a cell are cospherical
     surface.vertices.push_back({1.0 + k % 3, 1.0 + k / 3 % 3, 1.0 + k / 9});
   for (const bool flips : {true, false}) {
     meshes.clear();

@@ -1,4 +1,4 @@
-// What the exact arrangement tells besides its facets.
+// Results of the exact arrangement other than its facets.
 #include "arrange/arrange.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Several attempts at one mesh: what they add up to, and that an error in a later one loses nothing.
+// Several attempts at one mesh: their totals, and that an error in a later one loses nothing.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace {
 
-// Allocations of this thread until one fails; below zero, none does.
+// Allocations of this thread until one fails; if negative, none fails.
 thread_local long allocations_left = -1;
 
 void* allocate(std::size_t size) {
@@ -39,10 +39,10 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 namespace holdfast {
 namespace {
 
-// Has no mesh in doubles, so that every attempt is made.
+// A surface without a mesh in doubles, so that every attempt is made.
 Surface without_doubles() { return small::without_integer_points(0x1p52); }
 
-// What is said of attempts that failed.
+// The warnings about attempts that failed.
 std::vector<std::string> failures(const Result& result) {
   std::vector<std::string> messages;
   for (const Warning& warning : result.warnings)
@@ -96,7 +96,7 @@ TEST(Attempts, ALimitInALaterOneLosesNothing) {
   EXPECT_EQ(result.report.attempts, 3u);
 }
 
-// A result that could be delivered is not held back for a better one until there is no time left to write it.
+// The search for a better result leaves time to write the one that exists.
 TEST(Attempts, OtherChoicesLeaveTimeForTheResult) {
   const Surface surface = number_range::schoenhardt(1e6, 1e6, 59.9);
   Options options;

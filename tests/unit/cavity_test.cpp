@@ -12,8 +12,8 @@ using namespace testing;
 
 // --- cavities
 
-// What no cavity may hold: a ghost, a facet with both sides in it, an input vertex or a segment with all
-// tetrahedra round it.
+// What no cavity may contain: a ghost, a facet with both sides in it, or an input vertex or segment with all
+// tetrahedra around it.
 bool may_be_a_cavity(TetMesh& mesh, const std::vector<Tet>& tets, Vertex first_free) {
   const auto within = [&](const std::vector<Tet>& some) {
     return std::all_of(some.begin(), some.end(),
@@ -55,7 +55,7 @@ std::vector<Tet> united(std::vector<Tet> tets, const std::vector<Tet>& more) {
   return tets;
 }
 
-// The tetrahedra that could be added, and those of them that bring no new vertex.
+// The tetrahedra that could be added, and those of them that add no new vertex.
 std::pair<std::set<Tet>, std::set<Tet>> possible_steps(Scene& s, const Cavity& cavity) {
   std::set<Vertex> known;
   for (const FaceKey& f : cavity.faces()) known.insert(f.begin(), f.end());

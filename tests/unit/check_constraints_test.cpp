@@ -1,4 +1,4 @@
-// check(): facets, segments, regions and markers that are lost or changed are told, each by its rule.
+// check(): lost or changed facets, segments, regions and markers are reported, each by its rule.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 TEST(Facets, SwappedDiagonalIsTold) {
   Case c = grid({1, 1, 1});
-  // The bottom is cut from (0, 0) to (1, 1); the input shall have the other diagonal.
+  // The bottom is cut from (0, 0) to (1, 1), but the input has the other diagonal.
   const Index a = vertex_at(c.volume, {0, 0, 0}), b = vertex_at(c.volume, {1, 0, 0});
   const Index d = vertex_at(c.volume, {1, 1, 0}), e = vertex_at(c.volume, {0, 1, 0});
   std::erase_if(c.surface.facets, [&](const Triangle& t) {
@@ -80,7 +80,7 @@ TEST(Facets, DanglingOutsideIsDroppedNotLost) {
   c.options.outside_dropped = true;
   EXPECT_EQ(broken(c), Names{});
   EXPECT_EQ(detail(c, "no vertex unused"), "27 vertices used, 2 input vertices outside");
-  // Those that reach into the mesh are lost, with the option too.
+  // Those that extend into the mesh are lost, even with the option.
   c.surface.facets.back() = {corner, below, add({0.5, 0.75, 1.25})};
   c.surface.segments.back() = {vertex_at(c.volume, {0, 0, 0}), add({3, 2.5, 2.75})};
   EXPECT_EQ(broken(c), (Names{"no vertex unused", "facets kept", "segments kept"}));

@@ -27,7 +27,7 @@ TEST(Reach, OfATriangleIsExact) {
     EXPECT_TRUE(Reach(more).of_triangle({1, 1, -height}, t));
     EXPECT_FALSE(Reach(less).of_triangle({1, 1, height}, t));
   }
-  // Beside a side and a corner.
+  // Beyond a side and a corner.
   EXPECT_TRUE(Reach(0.25).of_triangle({3, -0.25, 0}, t));
   EXPECT_FALSE(Reach(std::nextafter(0.25, 0.0)).of_triangle({3, -0.25, 0}, t));
   EXPECT_TRUE(Reach(5).of_triangle({8, 0, 3}, t));
@@ -46,8 +46,7 @@ TEST(Reach, OfASegmentAndOfAFlatTriangle) {
   EXPECT_FALSE(Reach(1.999).of_triangle({1.5, 2, 2}, flat));
 }
 
-// What rounding lets be seen is what the exact test says: points at all distances round a segment and a
-// triangle.
+// Filters agree with the exact test: points at all distances around a segment and a triangle.
 TEST(Reach, IsTheSameHoweverItIsDecided) {
   std::mt19937 random(5);
   const auto small = [&] { return static_cast<double>(static_cast<int>(random() % 9) - 4); };
@@ -57,7 +56,7 @@ TEST(Reach, IsTheSameHoweverItIsDecided) {
       return Point{std::ldexp(small(), by), std::ldexp(small(), by), std::ldexp(small(), by)};
     };
     const Point a = point(), b = point(), p = point();
-    // In integers: the square of the distance times that of the length, or of what is beyond an end.
+    // In integers: the squared distance times the squared length, or times the part beyond an end.
     double along = 0, dd = 0, ww = 0, vv = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const double d = std::ldexp(b[i] - a[i], -by), w = std::ldexp(p[i] - a[i], -by), v = w - d;
@@ -119,8 +118,8 @@ TEST(Cover, ATipThatBecameAnEdge) {
   EXPECT_TRUE(CoverTest(vertices, without, reach).gap(thin, {0, 2, 3}, std::vector<Index>{0}));
 }
 
-// Several vertices of the output are within reach of a corner, as those round the pole of a sphere, and the
-// children have not the first of them.
+// Several vertices of the output are within reach of a corner, as around the pole of a sphere, and the
+// children do not have the first of them.
 TEST(Cover, ACornerThatBecameAnyOfSeveralVertices) {
   Square s;
   s.vertices.insert(s.vertices.begin(), {1 + 1e-12, 0, -1e-12});
@@ -134,8 +133,8 @@ TEST(Cover, ACornerThatBecameAnyOfSeveralVertices) {
   EXPECT_TRUE(test.gap(s.lower, {1, no_entity, 3}, std::vector<Index>{0}));
 }
 
-// A triangle of which two corners are there twice, and its children lead to the one or to the other: large
-// children must not go before all thin facets are looked at.
+// Two corners of a triangle occur twice, and its children lead to one or the other: large children must not
+// come before all thin facets are examined.
 TEST(Cover, CornersThatAreThereTwice) {
   const double e = 1e-12;
   const std::vector<Point> vertices{{-e, 1, 0}, {-e, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
@@ -152,7 +151,7 @@ TEST(Cover, CornersThatAreThereTwice) {
   EXPECT_TRUE(CoverTest(vertices, facets, reach).gap(triangle, {4, 2, 3}, std::vector<Index>{1, 2, 3}));
 }
 
-// A child that is all of the triangle covers it, whatever others there are.
+// A child that equals the whole triangle covers it, whatever others exist.
 TEST(Cover, AChildThatIsAllOfIt) {
   const std::vector<Point> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, 0}, {0.3, 0.2, 0}};
   const std::vector<Triangle> facets{{2, 0, 1}, {0, 3, 4}};
@@ -173,19 +172,19 @@ TEST(Cover, GapsAlongTwoSidesThatShareACorner) {
   const Reach reach(2.5 * e), nearer(1.5 * e);
   EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
-  // A gap between the sides is none along them.
+  // A gap between the sides does not count as one along them.
   const std::vector<Index> without{0, 1, 2, 4, 5, 6};
   EXPECT_TRUE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, without));
 }
 
-// A gap with a corner of the triangle, of which one side goes to another vertex near to it than the other:
-// the two are the two ends of a side that is odd, and of none.
+// A gap at a corner of the triangle, where one side leads to another vertex near the corner than the other
+// side: the two are the ends of an odd side.
 TEST(Cover, AGapWithTwoVerticesNearToACorner) {
   const double e = 1e-9;
   const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
   const std::vector<Point> vertices{triangle[0],   triangle[1],       triangle[2],
                                     {1 - e, e, 0}, {0.6, 1.5 * e, 0}, {1 - 1.5 * e, 0.5, 0}};
-  // What is missing are the triangles 1 3 4 and 1 3 5, or the one quadrilateral of both.
+  // The missing triangles are 1 3 4 and 1 3 5, or the quadrilateral of both.
   const std::vector<Triangle> facets{{0, 1, 4}, {0, 4, 2}, {4, 3, 5}, {4, 5, 2}, {5, 1, 2}};
   const std::vector<Index> children{0, 1, 2, 3, 4};
   const Reach reach(2 * e), nearer(1.2 * e);
@@ -193,8 +192,8 @@ TEST(Cover, AGapWithTwoVerticesNearToACorner) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
-// A part from a side to a vertex in the middle, which is thinner than the distance, is gone: two edges that
-// lie in each other but for that.
+// A part from a side to a vertex in the middle, thinner than the distance, is missing: two edges that
+// coincide otherwise.
 TEST(Cover, AThinPartThatBecameALine) {
   const double e = 1e-9;
   const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
@@ -207,7 +206,7 @@ TEST(Cover, AThinPartThatBecameALine) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
-// A part from a side that is as thin all along, and ends at a short edge: a slit.
+// A part from a side that is thin all along and ends at a short edge: a slit.
 TEST(Cover, AThinPartThatBecameASlit) {
   const double e = 1e-9;
   const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
@@ -220,7 +219,7 @@ TEST(Cover, AThinPartThatBecameASlit) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
-// The same where several edges lead round its far end.
+// The same with several edges around its far end.
 TEST(Cover, ASlitWithSeveralEdgesAtItsEnd) {
   const double e = 1e-9;
   const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
@@ -241,8 +240,8 @@ TEST(Cover, ASlitWithSeveralEdgesAtItsEnd) {
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
 }
 
-// The same where its ends are longer than it is thick, since it runs almost along the side that it comes
-// from: once both of its sides begin and end beside each other, once one of them is shorter at both ends.
+// The same with ends longer than its thickness, because it runs almost along the side where it begins: once
+// both of its sides begin and end next to each other, once one of them is shorter at both ends.
 TEST(Cover, ASlitWithEndsLongerThanItsThickness) {
   const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-10, 0}}};
   const std::vector<Triangle> facets{{0, 3, 2}, {3, 5, 2}, {5, 6, 2}, {6, 1, 2}, {6, 4, 1}};
@@ -257,7 +256,7 @@ TEST(Cover, ASlitWithEndsLongerThanItsThickness) {
   }
 }
 
-// Whatever is taken for a cover is one: points of the triangle are within the distance of some facet.
+// Whatever is accepted as a cover is one: points of the triangle are within the distance of some facet.
 TEST(Cover, IsTakenForNoneWhereAPointIsTooFar) {
   const std::array<Point, 3> triangle{{{0, 0, 0}, {6, 0, 0}, {1, 5, 0}}};
   const double distance = 1.25;

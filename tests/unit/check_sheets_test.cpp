@@ -1,4 +1,4 @@
-// The check of repairs: which parts of sheets are compared.
+// The check of repairs: which parts of sheets are compared with each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,8 @@ struct Soup {
   }
 };
 
-/// Sheets in planes through a point, each a fan of needles round it with a grid of `rings`, whose sizes fall
-/// to `least`. Corners are rounded, so parts of one sheet are not quite in its plane.
+/// Sheets in planes through a point, each a fan of needles around it with a grid of `rings`, whose sizes
+/// decrease to `least`. Corners are rounded, so parts of one sheet are not exactly in its plane.
 Soup pencil(std::uint64_t seed, std::size_t sheets, const Point& centre, double least) {
   numbers::Random random(seed);
   const auto uniform = [&] { return static_cast<double>(numbers::below(1U << 20, random)) / (1U << 19) - 1; };
@@ -51,7 +51,7 @@ Soup pencil(std::uint64_t seed, std::size_t sheets, const Point& centre, double 
   return soup;
 }
 
-/// Every pair that meets is visited, and none twice; returns how many are.
+/// Every pair that meets is visited, and none twice; returns their number.
 std::size_t expect_all_found(const Soup& soup, std::span<const Index> sheet) {
   std::map<std::array<Index, 2>, int> visited;
   for_each_near_pair(soup.vertices, soup.parts, sheet, [&](Index i, Index j) {
@@ -96,7 +96,7 @@ TEST(CheckSheets, WrongNumbersCostTimeOnly) {
   }
 }
 
-/// Pages round a spine, each cut where it is crossed: the boxes of most pairs meet, and few pages do.
+/// Pages around a spine, each cut where it is crossed: the boxes of most pairs meet, but few pages do.
 TEST(CheckSheets, PagesOfABookAreNotComparedAllWithAll) {
   constexpr Index kPages = 20, kParts = 20;
   Soup soup;

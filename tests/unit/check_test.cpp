@@ -1,4 +1,4 @@
-// check(): good meshes hold; a mesh that breaks a rule is told by that rule.
+// check(): good meshes pass; a mesh that breaks a rule fails it.
 #include "holdfast/check.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ TEST(GoodMesh, BoxHoldsOnlyWhenAllowed) {
   EXPECT_EQ(broken(c), (Names{"boundary is input"})) << "a piece of the box is missing";
 }
 
-// As OpenFOAM's format wants them, which has a patch for each face of the boundary.
+// As in OpenFOAM's format, which has a patch for each face of the boundary.
 TEST(GoodMesh, FacesOfTheBoxMayBeListed) {
   Case c = in_box();
   std::map<Triangle, int> tetrahedra_at;

@@ -1,4 +1,4 @@
-// Regions and winding numbers of random grids of cells, beside components and heights found by hand.
+// Regions and winding numbers of random grids of cells, compared with components and heights found directly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Grid {
     build();
   }
 
-  /// Lowers cells until neighbours differ by one at most, the outside included.
+  /// Lowers cells until neighbours, including the outside, differ by at most one.
   void flatten() {
     for (bool changed = true; changed;) {
       changed = false;
@@ -180,7 +180,7 @@ class Offsets {
   explicit Offsets(std::size_t size) : parent_(size), offset_(size, 0) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
-  // Demands number(b) = number(a) + step; false if that contradicts what was demanded before.
+  // Requires number(b) = number(a) + step; returns false if that contradicts an earlier requirement.
   bool demand(std::size_t a, std::size_t b, int step) {
     const auto [root_a, from_a] = find(a);
     const auto [root_b, from_b] = find(b);

@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// What std::invalid_argument says, or nothing where none is thrown.
+// The message of std::invalid_argument, or empty if none is thrown.
 std::string complaint(const Classified& scene, const Options& options) {
   try {
     static_cast<void>(scene.choose(options));
@@ -208,9 +208,9 @@ TEST(Keep, PiecesOutsideAreDefects) {
   Surface surface = small::box();
   small::add_triangle(surface, {2, 0, 0}, {3, 0, 0}, {2, 1, 0});
   surface.vertices.push_back({2, 0, 1});
-  surface.facets.push_back({8, 9, 11});  // hangs together with the first
+  surface.facets.push_back({8, 9, 11});  // connected with the first
   small::add_segment(surface, {0, 5, 0}, {0, 6, 0});
-  surface.segments.push_back({9, 10});  // a side: no piece of its own
+  surface.segments.push_back({9, 10});  // a side, not a separate piece
   surface.vertices.push_back({0, 0, 5});
   const Classified scene(surface);
   Options options;

@@ -1,5 +1,5 @@
-// What a mesh means for who computes with it: eigenvalues and shares (holdfast/condition.h); and sizes from
-// functions beside large triangles.
+// What a mesh means for computation: eigenvalues and shares (holdfast/condition.h); and sizes from functions
+// near large triangles.
 #include "holdfast/condition.h"
 
 #include <gtest/gtest.h>
@@ -61,8 +61,8 @@ TEST(Condition, BoundsTheStiffnessMatrix) {
   }
 }
 
-// A regular tetrahedron of unit edges: K = V g g^T with gradients of length sqrt(3/2), whose only eigenvalue
-// but 0 is sqrt(2)/12 * 2; the bound adds nothing where there is one element.
+// A regular tetrahedron of unit edges: K = V g g^T with gradients of length sqrt(3/2), whose only nonzero
+// eigenvalue is sqrt(2)/12 * 2; with a single element the bound equals it.
 TEST(Condition, OfARegularTetrahedron) {
   const Surface s = small::surface_of(
       {{0, 0, 0}, {1, 0, 0}, {0.5, std::sqrt(3) / 2, 0}, {0.5, std::sqrt(3) / 6, std::sqrt(2.0 / 3)}},
@@ -86,7 +86,7 @@ TEST(Condition, SharesOfVolume) {
   EXPECT_GT(elements.below[0], 0u);
 }
 
-// A function of the user is no way round what triangles can bear.
+// A function of the user cannot bypass what triangles bear.
 TEST(Limits, HoldForFunctionsToo) {
   const Surface box = small::box();
   const Result number = mesh_with(box, {.size = 0.1});

@@ -34,7 +34,7 @@ TEST(PartitionSegment, MakesAChainThroughFacesAndEdges) {
     EXPECT_EQ(chain, vertices_on(t.mesh, a, b));
     EXPECT_EQ(chain.size(), t.mesh.vertex_count() - start.mesh.vertex_count() + 2);
     expect_laid(t);
-    // Every face makes 4 tetrahedra more, every edge as many as it has round it, 3 at least.
+    // Every face adds 4 tetrahedra, every edge as many as are around it, at least 3.
     if (t.mesh.tet_count() == tets + 4 * (chain.size() - 2)) ++through_faces;
     if (t.mesh.tet_count() > tets + 4 * (chain.size() - 2)) ++through_edges;
   }

@@ -28,7 +28,7 @@ struct TwoInside {
   [[nodiscard]] VolumeData data() { return {mesh, region_of, sizes, kept, 4}; }
 };
 
-// All edges at the point are far longer than the size, as beside a large facet: it may go all the same.
+// All edges at the point are far longer than the size, as near a large facet: it may be removed all the same.
 TEST(Contraction, EdgesMayBeAsLongAsTheyWere) {
   TwoInside two(0.01);
   ImprovedVolume volume(two.data());

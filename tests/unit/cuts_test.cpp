@@ -91,7 +91,7 @@ TEST(Cuts, GoThroughTheWaist) {
   EXPECT_NE(cuts.part_of({0.1, 0.5, 0.5}), cuts.part_of({0.9, 0.5, 0.5}));
 }
 
-// As what is left round a plane that has cut a cube in halves: the plane that halves it is the same.
+// Like the remains around a plane that has halved a cube, which the same plane halves again.
 TEST(Cuts, AwayFromTheMiddleLeaveAloneWhatLiesAlongIt) {
   std::mt19937_64 random(4);
   std::vector<Cuts::Sample> samples;
@@ -144,7 +144,7 @@ TEST(SectionPoints, MakeTheCirclesSmallInWhichSpheresMeetTheCuts) {
   EXPECT_LT(add_section_points(cube.data(), cuts, size_function, 2, monitor), 0.25);
   EXPECT_EQ(find_fault(cube.mesh), "");
   const std::size_t points = cube.mesh.vertex_count() - 8;
-  EXPECT_GT(points, 120u);  // two unit squares and a half, in triangles of this size or larger ones
+  EXPECT_GT(points, 120u);  // two and a half unit squares, in triangles of at least this size
   EXPECT_LT(points, 400u);
   const auto is_small = [&](Tet t, const Cuts::Plane& plane) {
     const Point& p = cube.mesh.position(cube.mesh.corners(t)[0]);

@@ -1,4 +1,4 @@
-// What is decided for the user, and what may not be as it was meant: told in the result.
+// Decisions made for the user, and doubts about the input: reported in the result.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ TEST(Decisions, TheTriangleThatIsTurned) {
     std::swap(surface.facets[turned][0], surface.facets[turned][1]);
     const Result result = mesh(surface.view());
     EXPECT_EQ(result.report.keep, Keep::bounded);
-    EXPECT_EQ(result.report.regions, 2u);  // and not 1, as it would be were it not turned
+    EXPECT_EQ(result.report.regions, 2u);  // not 1, as for a consistent orientation
     EXPECT_EQ(result.report.turned_facets, std::vector<Index>{turned});
     ASSERT_EQ(kinds(result), Kinds{WarningKind::orientation});
     EXPECT_EQ(result.warnings[0].facets, std::vector<Index>{turned});
@@ -91,7 +91,7 @@ TEST(OpenInterface, IsTold) {
   }
 }
 
-// Turned at random, since a wall may be turned either way.
+// With random orientations, because a wall may have any.
 TEST(OpenInterface, IsToldHoweverItsTrianglesAreTurned) {
   Surface surface = with_fine_wall();
   surface.facets.pop_back();

@@ -21,7 +21,7 @@ std::vector<Point> on_a_sphere(std::size_t n) {
   return points;
 }
 
-// A walk that begins in a ghost may end there, and take a point for one that stands already.
+// A walk that begins in a ghost may end there, and take a point for one that exists already.
 TEST(Inserter, EntersASlabByAFiniteCellFromWhichAllOtherPointsAreFound) {
   const std::vector<Point> points = on_a_sphere(200);
   Triangulation triangulation(points, insertion_order(points, 1), 1);

@@ -185,7 +185,7 @@ TEST(Delaunay, RefusesNonFinite) {
 }
 
 TEST(Delaunay, LargeCavities) {
-  // A sphere's points first form big cells; the centre then digs up everything: thousands of faces.
+  // A sphere's points first form big cells; then the centre replaces them all: thousands of faces.
   std::vector<Point> points;
   std::mt19937_64 random(3);
   std::normal_distribution<double> gauss;

@@ -1,4 +1,4 @@
-// Surfaces in parts: the parts are valid, fit, and are the whole together.
+// Surfaces in parts: the parts are valid, fit, and together are the whole.
 #include "holdfast/divide.h"
 
 #include <gtest/gtest.h>

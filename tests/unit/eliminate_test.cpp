@@ -19,7 +19,7 @@ using namespace testing;
 
 // --- elimination, one point at a time
 
-// The neighbours of a point on its segment's chain, where it is on a segment.
+// The neighbours of a point on its segment's chain, if it is on a segment.
 std::optional<Ends> ends_of(const Task& t, Vertex p) {
   for (const auto& [a, b] : t.table.segments) {
     const std::vector<Vertex> chain = vertices_on(t.mesh, a, b);
@@ -123,7 +123,7 @@ TEST(FictitiousCuts, StandInForTheFacetsThatAreMissing) {
   EXPECT_GT(with_points, 5u);
 }
 
-// Directions to the points of a grid round the origin, each once, as they turn.
+// Directions to the points of a grid around the origin, each once, in angular order.
 std::vector<std::array<int, 2>> directions_of_grid(int reach) {
   std::vector<std::array<int, 2>> out;
   for (int x = -reach; x <= reach; ++x)
@@ -159,9 +159,8 @@ TetMesh mesh_of_ball(const std::vector<Point>& points, const std::vector<Triangl
   return mesh;
 }
 
-// A point of a dangling segment where doubles are the integers. Its link has a vertex in every direction that
-// an integer point near by lies in; those that are joined to one end of the segment are not joined to the
-// other.
+// A point of a dangling segment where doubles are the integers. Its link has a vertex in the direction of
+// every integer point nearby; those joined to one end of the segment are not joined to the other.
 TEST(FictitiousCuts, ArePossibleWhereEveryDoubleLiesInTheDirectionOfALinkVertex) {
   constexpr double kFar = 0x1.8p52;
   const auto at = [](int x, int y, int z) { return Point{kFar + x, kFar + y, kFar + z}; };

@@ -1,4 +1,5 @@
-// Partition and elimination: every constraint stands, covered exactly; nothing else is on it; volume stays.
+// Partition and elimination: every constraint exists, covered exactly; nothing else is on it; the volume is
+// unchanged.
 #include "enforce/enforce.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ TEST(Enforce, TheSeedAloneDecides) {
   EXPECT_NE(difference(one.mesh, other.mesh), "");
 }
 
-// Points that were moved off one constraint and by accident onto others that are missing.
+// Points that were moved off one constraint and accidentally onto others that are missing.
 TEST(Enforce, TakesSteinerPointsOffMissingConstraints) {
   Surface surface = facet_task(3, false).surface;
   for (Index above = 3; surface.segments.empty(); ++above)

@@ -1,4 +1,4 @@
-// As many elements as sizes of regions ask for, also where the surface bears few of them.
+// As many elements as sizes of regions ask for, even if the surface bears few of them.
 #include "api/enough_elements.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace holdfast {
 namespace {
 
-// The elements that a search ends with, of those that a factor gives; how often it asks.
+// The number of elements at which a search ends, given those of each factor, and the number of tries.
 struct Found {
   double factor;
   int tries;
@@ -43,7 +43,7 @@ TEST(SizesForEnough, MakesUpForTwoThirdsThatAreMissing) {
   EXPECT_EQ(found.tries, 2);
 }
 
-// Walls that get points from some size on.
+// Walls that get points below some size.
 TEST(SizesForEnough, LooksBetweenTooFewAndTooMany) {
   const auto made = [](double f) { return f > 0.85 ? 100 : f > 0.65 ? 800 : 3000; };
   const Found found = search(1000, made);
@@ -79,7 +79,7 @@ Options with_size(double size) {
   return options;
 }
 
-// Two triangles a side, twenty times as long as it is thick.
+// Two triangles per side, twenty times as long as the plate is thick.
 TEST(EnoughElements, AThinPlateOfLargeTriangles) {
   const Surface plate = small::box({0, 0, 0}, {20, 20, 1});
   const double size = 0.5;
@@ -104,7 +104,7 @@ TEST(EnoughElements, ASphereOfGoodTrianglesKeepsTheSizeThatIsAskedFor) {
   EXPECT_GT(static_cast<double>(result.report.tetrahedra), 0.65 * regular(4.1, 0.1));
 }
 
-// Bounds, functions and sizes at vertices are kept to as they are.
+// Bounds, functions and sizes at vertices are used unchanged.
 TEST(EnoughElements, SizesThatAFunctionGivesAreItsOwn) {
   const Surface plate = small::box({0, 0, 0}, {20, 20, 1});
   Options options = with_size(0.5);

@@ -129,7 +129,7 @@ TEST(Dyadic, ComputesExactly) {
   EXPECT_EQ(x, Dyadic());
 }
 
-/// Up to 500 bits, and as often few of them.
+/// Up to 500 bits, and equally often few bits.
 BigInt random_integer(std::mt19937_64& random) {
   const unsigned bits = 1 + static_cast<unsigned>(random() % (random() % 2 == 0 ? 500 : 80));
   BigInt m = 0;
@@ -138,7 +138,7 @@ BigInt random_integer(std::mt19937_64& random) {
   return m + 1;
 }
 
-/// Which of two doubles that follow each other a quotient is nearer to is a matter of integers.
+/// Integers decide which of two consecutive doubles is nearer to a quotient.
 TEST(Quotient, IsRoundedToTheNearestDouble) {
   std::mt19937_64 random(1);
   for (int k = 0; k < 20000; ++k) {

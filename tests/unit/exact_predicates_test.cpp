@@ -96,7 +96,7 @@ TEST(PredicateTiers, InsphereOfDoubles) {
   EXPECT_EQ(tier(1, 0), Tier::integer64);
   EXPECT_EQ(tier(1, 0x1p-80), Tier::integer128);
   EXPECT_EQ(tier(1, 0x1p-150), Tier::big_integer);  // 1 - 2^-150 is no double
-  // All differences are doubles here.
+  // Here all differences are doubles.
   EXPECT_EQ(sphere_tier({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0x1p-150}, {1, 1, 0}), Tier::expansion);
   EXPECT_EQ(sphere({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0x1p-150}, {1, 1, 0}), 0);
   EXPECT_EQ(tier(0x1p-970, 0), Tier::integer128);  // the scaled units of one limb would overflow
@@ -176,7 +176,7 @@ TEST(Predicates, LargestAndSmallestDoubles) {
 }
 
 TEST(Predicates, ExactPointsThatShareOneDouble) {
-  // A hair above, in and below the plane z = 1/3 (as a double), all with the same approximation.
+  // Slightly above, in and below the plane z = 1/3 (as a double), all with the same approximation.
   const double third = 1.0 / 3;
   const Point3 a = {0, 0, third}, b = {1, 0, third}, c = {0, 1, third}, approx = {0.25, 0.25, third};
   for (const int side : {-1, 0, 1}) {

@@ -49,7 +49,7 @@ TEST(FacetSizes, PointsKeepAwayAlsoBesideTheMiddle) {
     }
 }
 
-// Where a function of the user tells what is wanted, facets need at most so many times that, at any place.
+// If a function of the user gives the sizes, facets need at most a fixed multiple of them, at any place.
 TEST(FacetSizes, WhatIsWantedMayDifferFromPlaceToPlace) {
   const FacetSizes sizes(std::array{right_triangle(1, 1)}, FacetSizes::Wanted::anywhere);
   EXPECT_EQ(sizes.count(), 1u);
@@ -64,7 +64,7 @@ TEST(FacetSizes, WhatIsWantedMayDifferFromPlaceToPlace) {
   EXPECT_FALSE(sizes.is_too_near({0.3, 0.3, 0.01}, 0.5));
 }
 
-// A facet that only the user wants smaller elements on does not count where the surface itself is finer.
+// A facet on which only the user wants smaller elements does not count where the surface itself is finer.
 TEST(FacetSizes, WhatTheUserAsksForDoesNotMakeSizesOfTheSurfaceLarger) {
   FacetSizes::Facet asked = right_triangle(1, 0.01);
   asked.is_asked = true;
@@ -79,7 +79,7 @@ TEST(FacetSizes, WhatTheUserAsksForDoesNotMakeSizesOfTheSurfaceLarger) {
   EXPECT_TRUE(of_surface.is_too_near(x, size, FacetSizes::By::surface));
 }
 
-// The tree finds what looking at each facet alone does.
+// The tree finds the same as a search over all facets.
 TEST(FacetSizes, AllAreAsEachAlone) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> any(0, 1);
@@ -129,7 +129,7 @@ Surface with_insets(Surface surface, std::size_t count, double part) {
   return surface;
 }
 
-// Each innermost triangle, with 60 of the 132 vertices, is a twentieth of the triangle that it is in.
+// Each innermost triangle, with 60 of the 132 vertices, is a twentieth of the triangle around it.
 Surface with_jumps() { return with_insets(with_insets(hard::icosphere(0), 20, 0.1), 20, 0.5); }
 
 TEST(Gradation, SizesGrowFasterWhereThoseOfTheSurfaceJump) {

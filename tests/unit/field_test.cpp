@@ -44,7 +44,7 @@ TEST(FieldPoints, WithoutSizesThereAreNone) {
   EXPECT_EQ(result.report.steiner_points, 0u);
 }
 
-// A disc as thick as a coin's gilding: both faces are fans, each round one vertex of its rim.
+// A disc as thin as gilding: both faces are fans, each around one vertex of its rim.
 Surface double_fan(Index n) {
   Surface fan;
   for (const double z : {0.0, 0.001})
@@ -64,8 +64,8 @@ Surface double_fan(Index n) {
   return fan;
 }
 
-// Each cavity between the fans has thousands of tetrahedra. It took 30 times as long as the flips, and takes
-// four times as long, or ten with sanitizers: in time of the processor, which other programs do not change.
+// Each cavity between the fans has thousands of tetrahedra. This took 30 times as long as the flips, and now
+// takes four times as long, or ten with sanitizers: in processor time, which other programs do not change.
 TEST(FieldPoints, CavitiesOfThousandsAreNotTriedWithoutEnd) {
   std::map<Stage, std::clock_t> begun;
   Options options;
@@ -87,7 +87,7 @@ TEST(FieldPoints, SizeIsTheLengthOfEdges) {
   }
 }
 
-// A cylinder whose ends are fans of needles, each round one vertex of its rim.
+// A cylinder whose ends are fans of needles, each around one vertex of its rim.
 Surface fanned_cylinder(Index n) {
   Surface cylinder = double_fan(n);
   for (Point& p : cylinder.vertices)
@@ -95,7 +95,7 @@ Surface fanned_cylinder(Index n) {
   return cylinder;
 }
 
-// Points came to lie as near as they liked to triangles much larger than the size, beside the tetrahedra on
+// Points used to come arbitrarily near to triangles much larger than the size, next to the tetrahedra on
 // these: 5.5 % of the elements were below 10 degrees.
 TEST(FieldPoints, TrianglesMuchLargerThanTheSizeKeepPointsAway) {
   Options options;
@@ -110,7 +110,7 @@ TEST(FieldPoints, TrianglesMuchLargerThanTheSizeKeepPointsAway) {
       1.05, 0.15);
 }
 
-// Between large triangles two and a half sizes apart, the work of a round was spent before all elements
+// Between large triangles two and a half sizes apart, the work of a round used to end before all elements
 // inside had been tried: 6.6 % were below 10 degrees.
 TEST(FieldPoints, WorkGoesOnWhileManyElementsInsideAreBad) {
   Surface plate = small::box();
@@ -146,8 +146,8 @@ Surface half_fine_plate(Index n, double thickness) {
   return plate;
 }
 
-// From the size on that made the large triangles much larger than it, sizes grew beside the fine ones, too:
-// 1,382 tetrahedra in the place of 1,635 without a size.
+// From the size on that made the large triangles much larger than it, sizes used to grow next to the fine
+// ones, too: 1,382 tetrahedra instead of 1,635 without a size.
 TEST(FieldPoints, ASizeAskedForDoesNotMakeElementsLarger) {
   const Surface plate = half_fine_plate(16, 0.2);
   const auto count = [&](double size) {
@@ -156,7 +156,7 @@ TEST(FieldPoints, ASizeAskedForDoesNotMakeElementsLarger) {
   EXPECT_GT(count(0.14), 0.93 * count(9));
 }
 
-// A box a few sizes wide is near to its large triangles everywhere. Regular tetrahedra of edges H would be
+// A box a few sizes wide is near its large triangles everywhere. Regular tetrahedra with edges H would number
 // 8.49 V / H^3.
 TEST(FieldPoints, SmallBoxesGetTheNumberThatTheSizeAsksFor) {
   for (const double size : {0.05, 0.1, 0.15, 0.2}) {
@@ -202,7 +202,7 @@ TEST(FieldPoints, TheVolumeOfASphereIsFitToComputeWith) {
   }
 }
 
-// Little work takes what is mild out of the share.
+// Little work lowers the share of mild elements.
 TEST(FieldPoints, DefaultEffortLeavesAThirdOfWhatFastLeavesBelow30Degrees) {
   EXPECT_LT(3 * share_below_30_deg(sphere_with(Effort::good)), share_below_30_deg(sphere_with(Effort::fast)));
 }
@@ -254,7 +254,7 @@ TEST(FieldPoints, ARegionHasASizeOfItsOwn) {
   options.regions = {{centre, 7, 0.05 * (high[0] - low[0])}};
   const Result finer = mesh_with(surface, {}, options);
   EXPECT_GT(std::count(finer.volume.regions.begin(), finer.volume.regions.end(), 7), 200);
-  // Mean lengths between two cubes round the centre: those of the region inside, longer ones outside of it.
+  // Mean lengths between two cubes around the centre: those of the region inside, longer ones outside it.
   const auto mean_between = [&](double inner, double outer) {
     return mean_edge_in(finer.volume, [&](const Point& p) {
       double away = 0;
@@ -266,7 +266,7 @@ TEST(FieldPoints, ARegionHasASizeOfItsOwn) {
   EXPECT_GT(mean_between(0.9, 1.5), 2.5 * mean_between(0, 0.42));
 }
 
-// Powers of two change nothing; energies, products of sixteen lengths, once ran out of exponents.
+// Powers of two change nothing; energies, products of sixteen lengths, once exceeded the exponent range.
 TEST(FieldPoints, TheUnitDoesNotMatter) {
   const Surface sphere = hard::icosphere(2);
   const Result usual = mesh_with(sphere, {.size = 0.3});

@@ -18,7 +18,7 @@
 namespace holdfast {
 namespace {
 
-// By other ways than Figures.
+// Measured in other ways than by Figures.
 struct Measured {
   double least = 180, share_below = 0, mean_q = 0;
 };
@@ -120,7 +120,7 @@ TEST_P(FiguresOf, NeverGetWorse) {
 INSTANTIATE_TEST_SUITE_P(
     Surfaces, FiguresOf,
     ::testing::Values(Family{"fans", fan, 6},
-                      // Other orders are tried for all of these meshes, or for none.
+                      // other orders are tried for all of these meshes, or for none
                       Family{"double_cones", double_cone, 2, Keep::automatic, 139},
                       Family{"double_cones_without_field", double_cone, 2, Keep::automatic, 532},
                       Family{"twisted_prisms", hard::twisted_prism, 4},
@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Family{"scattered", hard::scattered, 2}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// Without field points, runs with different seeds end with worst elements that are about as bad: where they
-// are bad, the same other orders are tried.
+// Without field points, runs with different seeds end with similar worst elements: if they are bad, the same
+// other orders are tried.
 TEST(OtherChoices, SeedsAgree) {
   int apart = 0, tried = 0;
   for (int k = 0; k < 12; ++k) {
@@ -165,7 +165,7 @@ TEST(Standard, RefusesWhatLowersTheLeastAngle) {
   EXPECT_TRUE(standard.allows(good, good));
 }
 
-// What has become better may become worse again, but not worse than it was.
+// A figure that has improved may get worse again, but not worse than at first.
 TEST(Standard, AllowsWhatGainsPayFor) {
   Figures whole, good, bad;
   good.add(kO, kX, kY, kZ);
@@ -176,7 +176,7 @@ TEST(Standard, AllowsWhatGainsPayFor) {
   EXPECT_TRUE(standard.allows(bad, good));
   EXPECT_TRUE(standard.allows(bad, good));
   EXPECT_TRUE(standard.allows(good, bad));
-  EXPECT_FALSE(standard.allows(good, bad));  // but for rounding, that would be as it was
+  EXPECT_FALSE(standard.allows(good, bad));  // equal, except for rounding
 }
 
 TEST(Figures, AnAngleOfTenDegreesIsNotBelow) {

@@ -1,4 +1,4 @@
-// Part of a volume filled by itself: with the points that it may have, or not at all.
+// Part of a volume filled separately: with the points that it may have, or not at all.
 #include "api/fill_polyhedron.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Fillings made ahead, on threads: the same as when they are asked for.
+// Fillings made ahead on threads are the same as those made on request.
 #include "api/fillings.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Thin facets that hang on a surface.
+// Thin facets attached to a surface.
 #include "repair/fins.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 const double e = 0x1p-50;
 
-/// A tetrahedron with vertices on its side 01 and 4, 5 and 6 beside it, of which none is the input's.
+/// A tetrahedron with vertices on its side 01, and 4, 5 and 6 beside it, none of them the input's.
 State tetrahedron(std::vector<Triangle> fins) {
   const std::vector<Point> vertices{{0, 0, 0},   {1, 0, 0},     {0, 1, 0},      {0, 0, 1},
                                     {0.5, 0, 0}, {0.5, -e, -e}, {0.75, -e, -e}, {0.5, -1, -1}};
@@ -78,8 +78,8 @@ TEST(Fins, TheLastFacetOfAVertexOfTheInputStays) {
 }
 
 TEST(Fins, SidesBeginAtTheirCorners) {
-  // The fin is a part of the second facet: of one with a side that begins on it, of one whose sides are led
-  // from there without it, and of one without a corner there.
+  // The fin is a part of the second facet: of one with a side that begins on it, of one whose sides lead past
+  // it, and of one without a corner there.
   const auto left = [](const Triangle& second) {
     State state = tetrahedron({{4, 1, 5}});
     const State given = state_of({state.vertices, std::array{Triangle{0, 2, 3}, second}, {}, {}, {}});

@@ -47,7 +47,7 @@ TEST(FitsRounded, PointsThatRoundingPutsElsewhere) {
   }
 }
 
-/// By two doubles a coordinate as far as these go, by integers beyond.
+/// By two doubles a coordinate as far as they suffice, by integers beyond.
 TEST(Points, TurnsNextToALine) {
   for (unsigned j = 1; j < 300; ++j)
     for (const int s : {-1, 0, 1}) {
@@ -60,7 +60,7 @@ TEST(Points, TurnsNextToALine) {
     }
 }
 
-/// A point that is told to be on a side costs no arithmetic, and changes nothing.
+/// A point known to be on a side costs no arithmetic, and changes nothing.
 TEST(FlatMesh, TakesPointsOnSidesAtTheirWord) {
   for (const bool told : {false, true}) {
     plane::Points points;

@@ -1,4 +1,4 @@
-// Sheets that lie in each other but for rounding.
+// Sheets that coincide up to rounding.
 #include "repair/flatten.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Rounded rounded_in_plane(State plane, double most) {
   return Ladder(std::move(plane), options, {}, {exact, none}, planes, kNoStep, one).run_in_plane(most);
 }
 
-/// Boxes that stand beside and on each other, with corners some last bits from where these should be.
+/// Boxes beside and on each other, whose corners are some last bits off.
 State boxes(std::size_t count, numbers::Random& random) {
   std::vector<Point> vertices;
   std::vector<Triangle> facets;
@@ -83,8 +83,8 @@ TEST(Flatten, WhereNoSideIsLedAllSheetsDoWhatOneDoes) {
   EXPECT_GT(led, 10u);
 }
 
-/// A fan round an apex in a plane that is turned. Each facet is a twentieth larger than the fan needs, and is
-/// rounded by itself.
+/// A fan around an apex in a rotated plane. Each facet is a twentieth larger than the fan needs, and is
+/// rounded separately.
 State overlapping_fan(int facets) {
   const Point u{2.0 / 3, 1.0 / 3, 2.0 / 3}, v{-1.0 / 3, -2.0 / 3, 2.0 / 3};
   std::vector<Point> vertices;
@@ -106,7 +106,7 @@ State overlapping_fan(int facets) {
   return state_of({vertices, fan, {}, {}, {}});
 }
 
-/// It has a new point for each pair of sides, and more of them than many facets that only lie in each other.
+/// It has a new point for each pair of sides, more than many facets that only coincide.
 TEST(Flatten, AFanWhoseFacetsAllOverlapIsOneSheet) {
   State state = overlapping_fan(36);
   const Flattened flat = flatten_all(state, kGap, rounded_in_plane, SidesOf::all_sheets, kNoStep);

@@ -1,5 +1,5 @@
-// Programs may round another way, flush denormals to zero or trap exceptions: the library computes the same
-// bits, and leaves the program as it was.
+// Programs may change the rounding mode, flush denormals to zero or trap exceptions: the library computes the
+// same bits, and leaves the program's settings unchanged.
 #include "numbers/float_environment.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@
 namespace holdfast {
 namespace {
 
-// What a program has set, and whether it still has.
+// The settings of a program, and whether they are unchanged.
 struct Setting {
   std::string name;
   std::function<void()> set;
@@ -49,7 +49,7 @@ std::vector<Setting> settings() {
   return out;
 }
 
-// The test's own comparisons are made as usual.
+// The test's own comparisons use the default settings.
 class UsualAgain {
  public:
   UsualAgain() { std::fegetenv(&environment_); }

@@ -1,4 +1,4 @@
-// Vertices of what is in trouble go to the points of a grid, and what is beside them with these.
+// Vertices of elements in trouble move to points of a grid, and those near them move along.
 #include "repair/grid.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +8,7 @@
 namespace holdfast::repairing {
 namespace {
 
-/// Two triangles beside each other whose vertices are near to points of a grid of 1/4; only the first is in
-/// trouble.
+/// Two adjacent triangles whose vertices are near points of a grid of 1/4; only the first is in trouble.
 State two_triangles() {
   Surface surface;
   small::add_triangle(surface, {0.01, 0, 0}, {1, 0.02, 0}, {0, 1, -0.03});

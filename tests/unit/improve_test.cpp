@@ -1,5 +1,5 @@
-// What makes the elements of a field mesh better, from the inside: energies, shapes, cavities of points, the
-// improvement of a volume.
+// The parts that improve the elements of a field mesh: energies, shapes, cavities of points, the improvement
+// of a volume.
 #include "optimise/improve.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST(Energy, IsOfTheLeastAngle) {
   }
 }
 
-// What is hopeless counts for less, beside what is not, than by the usual rule; the rest counts the same.
+// Hopeless elements count for less than by the usual rule, relative to others; the others count the same.
 TEST(Energy, GrowsLessBelowTheHopelessSine) {
   const EnergyRule early{.hopeless_sine = 0.4};
   EXPECT_EQ(energy_of_sine(0.5, early), energy_of_sine(0.5));
@@ -67,8 +67,8 @@ TEST(Shape, ANeedleIsNotFlat) {
   EXPECT_FALSE(is_flat({0, 0, 0}, {1, 0, 0}, {0, 0.01, 0.01}, {0, -0.01, 0.02}));  // a splinter
 }
 
-/// The Delaunay triangulation of random points in the unit cube and the corners of a cube round it, `margin`
-/// away. It has slivers in plenty.
+/// The Delaunay triangulation of random points in the unit cube and the corners of a cube around it, `margin`
+/// away. It has many slivers.
 TetMesh random_mesh(int points, std::uint64_t seed, double margin = 0) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> any(0, 1);
@@ -165,7 +165,7 @@ TEST(Improve, LeavesAValidMeshWithBetterElements) {
   EXPECT_LT(4 * below_10(), before);
 }
 
-/// What `act` does to a mesh of slivers all of whose vertices stand, so that bad elements stay.
+/// What `act` does to a mesh of slivers with all vertices fixed, so that bad elements stay.
 template <class Act>
 auto of_standing_slivers(int points, Act&& act) {
   TetMesh mesh = random_mesh(points, 5);
@@ -180,7 +180,7 @@ auto of_standing_slivers(int points, Act&& act) {
   return result;
 }
 
-// How much of a mesh of slivers is left for a comparison to tell whether it matters.
+// How many slivers are left in a mesh decides whether a comparison is worthwhile.
 TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
   const auto improved = [](bool may_be_brief) {
     return of_standing_slivers(2000, [&](const VolumeData& volume, Monitor& monitor) {
@@ -193,7 +193,7 @@ TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
   EXPECT_LT(brief.inserted, whole.inserted);
 }
 
-// Where facets force much, so that it is brief, points go again: of those that are free.
+// If facets force much, so that the pass is brief, points are removed again: the free ones.
 TEST(Improve, ThinsOutWhatIsBrief) {
   const auto tets_left = [](double least_part) {
     TetMesh mesh = random_mesh(2000, 5);
@@ -213,7 +213,7 @@ TEST(Improve, ThinsOutWhatIsBrief) {
   EXPECT_LT(tets_left(0.5), 0.95 * static_cast<double>(tets_left(1)));
 }
 
-// Points that nobody limits are added without end where all vertices stand.
+// Unlimited points are added without end if all vertices are fixed.
 TEST(Improve, AddsNoPointsBeyondTheGrowthThatIsAllowed) {
   const auto improved = [](double most_growth) {
     return of_standing_slivers(1000, [&](const VolumeData& volume, Monitor& monitor) {

@@ -1,4 +1,4 @@
-// Parts of one mesh, changed at the same time: each keeps to itself, and threads make no difference.
+// Parts of one mesh, changed at the same time: each only changes itself, and threads make no difference.
 #include "mesh/in_place_parts.h"
 
 #include <gtest/gtest.h>

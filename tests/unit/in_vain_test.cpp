@@ -1,4 +1,4 @@
-// What was tried in vain at a vertex or an edge, until something there changes.
+// Failed trials at a vertex or an edge, which count until something there changes.
 #include "optimise/in_vain.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace holdfast {
 namespace {
 
-// A point in a tetrahedron: four tetrahedra, three round each edge at the point.
+// A point in a tetrahedron: four tetrahedra, three around each edge at the point.
 struct OneInside {
   TetMesh mesh;
   EdgeShell shell;  // of the edge from the first corner to the point

@@ -1,4 +1,5 @@
-// What holds for all calls: limits, progress, a token that another thread cancels; names; arrays; neighbours.
+// What applies to all calls: limits, progress, a token that another thread cancels; names; arrays;
+// neighbours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,12 +24,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What the process has worked, by all threads: on a loaded machine the clock on the wall runs on.
+/// The process's work on all threads: on a loaded machine, wall-clock time passes anyway.
 std::chrono::milliseconds worked() {
   return std::chrono::milliseconds(static_cast<std::int64_t>(std::clock()) * 1000 / CLOCKS_PER_SEC);
 }
 
-// A surface belongs to whoever views it.
+// The owner of a view owns the surface.
 template <class Owner>
 concept Viewable = requires(Owner&& owner) {
   std::forward<Owner>(owner).view();
@@ -44,7 +45,7 @@ std::vector<Point> random_points(std::size_t count) {
   return points;
 }
 
-/// A volume large enough that nothing is done with it in a moment.
+/// A volume so large that no call on it ends at once.
 const Volume& large_volume() {
   static const Volume volume = [] {
     Volume v;
@@ -58,7 +59,7 @@ const Volume& large_volume() {
 
 class Cancelled : public testing::Test {
  protected:
-  /// How much was still worked after the cancellation.
+  /// How much work was done after the cancellation.
   template <class Work>
   std::chrono::milliseconds delay(Work&& work, std::chrono::milliseconds after = 20ms) {
     const CancelToken token;
@@ -81,7 +82,7 @@ class Cancelled : public testing::Test {
   }
 
   samples::TemporaryFolder folder_;
-  static constexpr auto kSoon = 500ms;  // 50 ms but for sanitizers
+  static constexpr auto kSoon = 500ms;  // 50 ms without sanitizers
 };
 
 TEST_F(Cancelled, Delaunay) {

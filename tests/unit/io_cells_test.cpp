@@ -30,7 +30,7 @@ struct Block {
   Cell pyramid{{4, 5, 6, 7, 10}, 4};
   std::vector<std::array<int, 4>> quadrangles{{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 8, 9, 2}};  ///< of the boundary
 
-  /// With other numbers of the points.
+  /// Renumbers the points.
   void shuffle(std::mt19937_64& random) {
     std::vector<int> number(points.size());
     std::iota(number.begin(), number.end(), 0);
@@ -256,7 +256,7 @@ TEST_F(Cells, OfEveryFormatFitTogether) {
   }
 }
 
-/// Without the quadrangles, which surfaces of an .inp make instead.
+/// Without the quadrangles, which surfaces of an .inp define instead.
 std::string inp_of_sides(const Block& b, const std::string& sides) {
   std::string text = inp(b);
   const std::size_t skin = text.find("*ELEMENT"), cells = text.find("*ELEMENT, TYPE=C3D8R");
@@ -274,7 +274,7 @@ TEST_F(Cells, SidesOfThemInSurfacesOfInpAreFacets) {
   const Volume block = read(inp_of_sides(Block(), "CUBE, S1\n6, S2\n"), "a.inp");
   EXPECT_EQ(block.facets, (std::vector<Triangle>{{0, 3, 2}, {0, 2, 1}, {4, 5, 10}}));
   EXPECT_EQ(block.facet_markers, (std::vector<int>{1, 1, 1}));
-  // The side of a hexahedron that is a prism is no side, or a triangle.
+  // The side of a hexahedron that is a prism is missing, or a triangle.
   Block prism;
   prism.cube = {{1, 8, 8, 5, 2, 9, 9, 6}, 3};
   EXPECT_EQ(read(inp_of_sides(prism, "4, S1\n4, S4\n"), "a.inp").facets, (std::vector<Triangle>{{1, 5, 8}}));
@@ -316,7 +316,7 @@ TEST_F(Cells, ReadAsASurfaceAreLeftOut) {
   EXPECT_EQ(surface.remarks.back().message, "1 hexahedron, 1 prism and 1 pyramid are left out");
 }
 
-/// A prism written as a hexahedron, as programs do that know no others.
+/// A prism written as a hexahedron, as programs without prisms do.
 TEST_F(Cells, CornersMayBeThereTwice) {
   Block block;
   block.cube = {{1, 8, 8, 5, 2, 9, 9, 6}, 3};
@@ -353,7 +353,7 @@ TEST_F(Cells, OfSecondOrderLoseTheirNodesOnEdges) {
   EXPECT_EQ(volume.tetrahedra.size(), 6u);
 }
 
-/// Rings whose nodes on edges stand between the corners.
+/// Rings with the nodes on edges between the corners.
 TEST_F(Cells, OfUnvAreReadByTheirRings) {
   std::string text = "    -1\n  2411\n";
   const std::vector<std::pair<int, int>> ring{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};

@@ -1,4 +1,4 @@
-// Damaged and hostile files end in a FileError with a place: no crash, no hang, no giant allocation.
+// Damaged and hostile files give a FileError with a place: no crash, no hang, no giant allocation.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -72,7 +72,7 @@ std::vector<Sample> valid_files() {
   return files;
 }
 
-/// Parses as surface and as volume where the format is one; whether the first of them succeeded.
+/// Parses as a surface and as a volume if the format is one; returns whether the first succeeded.
 bool parses(const Sample& file) {
   static const std::filesystem::path path = "/nonexistent/mutant";
   bool success = false;
@@ -121,7 +121,7 @@ TEST(Hostile, EveryFormatRefusesWhatItIsNot) {
       EXPECT_FALSE(parses({file.format, bytes})) << file.format << bytes;
 }
 
-/// One change of a file, such as an editor, a transfer or an attacker makes.
+/// One change to a file, as an editor, a transfer or an attacker might make.
 std::string mutated(const std::string& original, std::mt19937_64& random) {
   static const std::vector<std::string> kTokens = {
       "4294967295", "4294967296", "-1",     "0",        "1",  "2147483648", "9223372036854775807",  "1e400",

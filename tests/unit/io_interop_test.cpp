@@ -1,5 +1,5 @@
-// Other programs read the volumes that Holdfast writes: VTK (hence ParaView), meshio and Gmsh, those
-// of them that are installed.
+// Other programs read the volumes that Holdfast writes: VTK (hence ParaView), meshio and Gmsh, if they are
+// installed.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -75,7 +75,7 @@ TEST(Interop, OtherProgramsReadTheSame) {
           json(original.segments, original.segment_markers) + ", \"vertex_markers\": [0, 5, 0, 8, 0, 8]}");
   const std::string script = HOLDFAST_SOURCE_DIR "/tests/unit/io_interop.py";
   int worst = 77 << 8;
-  // The system's Python has the packages more often than one of the user's own.
+  // The system's Python has the packages more often than the user's.
   for (const char* python : {"/usr/bin/python3", "python3"}) {
     worst = std::system((std::string(python) + " '" + script + "' '" + folder.path().string() + "'").c_str());
     if (WIFEXITED(worst) && WEXITSTATUS(worst) != 77 && WEXITSTATUS(worst) != 127) break;

@@ -1,4 +1,4 @@
-// Blocks of LZ4, and VTK's files that are packed by it.
+// Blocks of LZ4, and VTK files compressed by it.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace samples;
 
-/// What the block holds, or "damaged".
+/// The content of the block, or "damaged".
 std::string unpacked(const std::string& block, std::size_t size) {
   std::string bytes = "before";
   if (!io::append_lz4_block(bytes, block, size)) return "damaged";

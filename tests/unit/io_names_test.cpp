@@ -127,7 +127,7 @@ TEST(Patches, GoRoundMarkersThatAreThere) {
   Surface box = small::box();
   box.facet_markers.assign(box.facets.size(), 0);
   box.facet_markers[0] = 2;
-  // A facet that is turned round does not end a patch, nor do vertices that are there twice.
+  // A facet of opposite orientation does not end a patch, nor do vertices that occur twice.
   std::swap(box.facets[5][0], box.facets[5][1]);
   const Index copy = box.facets[7][0];
   box.vertices.push_back(box.vertices[copy]);
@@ -137,7 +137,8 @@ TEST(Patches, GoRoundMarkersThatAreThere) {
   EXPECT_EQ(std::count(box.facet_markers.begin(), box.facet_markers.end(), 2), 1);
 }
 
-// As Gmsh writes them with Mesh.SaveAll: what is in no group has its entity's number, which may be a group's.
+// As Gmsh writes them with Mesh.SaveAll: an entity without a group has its own number, which may equal a
+// group's.
 TEST_F(NamesOfFiles, OfGroupsAreNotThoseOfEntitiesWithTheirNumber) {
   const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
   const std::string head =

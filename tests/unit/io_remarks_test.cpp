@@ -1,5 +1,5 @@
-// Nothing is dropped without a word: what readers leave out, what writers cannot hold, markers of vertices
-// and limits on volumes.
+// Nothing is dropped silently: what readers leave out, what writers cannot hold, markers of vertices, and
+// limits on volumes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ class Remarks : public ::testing::Test {
     put(folder_ / name, bytes);
     return read_surface(folder_ / name);
   }
-  /// The messages, one a line.
+  /// The messages, one per line.
   static std::string messages(const std::vector<Remark>& remarks) {
     std::string all;
     for (const Remark& remark : remarks) all += remark.message + "\n";
@@ -80,7 +80,7 @@ TEST_F(Remarks, OfVolumes) {
 }
 
 TEST_F(Remarks, RegionsLimitsOnVolumesBecomeSizes) {
-  // 12 figures: the cube root is computed by other means than here.
+  // 12 digits: the cube root is computed differently here.
   std::string text = kPoly;
   text.replace(text.find("0.1 0.1 0.1 3 -1"), 16, "0.1 0.1 0.1 3 0.004");
   const Surface s = surface(text, "a.poly");
@@ -122,7 +122,7 @@ TEST_F(Remarks, SayWhatAFormatDoesNotHold) {
             "segment marker 0 is 1 in the file, since .msh takes 0 for none\n"
             "marker -2147483647 is 1 in the file, since .msh takes positive numbers alone\n"
             "region -3 is 2 in the file, since .msh takes positive numbers alone\n");
-  // What is said of the order is so.
+  // The remark on the order is true.
   Volume turned = volume;
   std::swap(turned.tetrahedra[1], turned.tetrahedra[2]);
   turned.regions = {1, 3, 2};

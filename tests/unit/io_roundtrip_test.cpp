@@ -1,4 +1,4 @@
-// Every format gives back what was written: coordinates bit for bit, markers, regions, orientation.
+// Every format returns what was written: coordinates bit for bit, markers, regions, orientation.
 #include <gtest/gtest.h>
 
 #include <algorithm>

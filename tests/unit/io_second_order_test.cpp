@@ -1,5 +1,5 @@
-// Volumes of second order through every format that is read and written: nodes, markers and regions come
-// back.
+// Volumes of second order through every format that is read and written: nodes, markers and regions are the
+// same.
 #include <gtest/gtest.h>
 
 #include <algorithm>

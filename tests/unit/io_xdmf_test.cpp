@@ -1,4 +1,4 @@
-// XDMF whose values stand in raw files.
+// XDMF with values in raw files.
 #include <gtest/gtest.h>
 
 #include "io/byte_reader.h"
@@ -64,7 +64,7 @@ class XdmfRaw : public ::testing::Test {
 
 TEST_F(XdmfRaw, OfMeshio) {
   expect_tetrahedron(read(points(), cells()));
-  // It writes names of files as it was given its own.
+  // It writes names of files in the form in which its own was given.
   expect_tetrahedron(read(points("DataType=\"Float\" Precision=\"8\"", (folder_ / "points.bin").string()),
                           "\n  " + cells()));
 }

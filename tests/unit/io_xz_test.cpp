@@ -1,4 +1,4 @@
-// Streams of .xz, and VTK's files that are packed by LZMA.
+// Streams of .xz, and VTK files compressed by LZMA.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -19,7 +19,7 @@ std::string unpacked(const std::string& stream, std::size_t size) {
   return bytes.substr(6);
 }
 
-/// By liblzma 5.4: literals, matches, matches of the last distance and of those before, doubles.
+/// By liblzma 5.4: literals, matches, matches at the last distance and at earlier ones.
 const std::string kStream(
     "\xfd\x37\x7a\x58\x5a\x00\x00\x01\x69\x22\xde\x36\x02\x00\x21\x01\x16\x00\x00\x00\x74\x2f\xe5\xa3\xe0\x02"
     "\x07\x00"
@@ -43,7 +43,7 @@ std::string what_it_holds() {
   return text;
 }
 
-/// 100,000 zeros, without a sum: as many bytes of one as there may be.
+/// 100,000 zeros, without a checksum: as many bytes as one may have.
 const std::string kZeros(
     "\xfd\x37\x7a\x58\x5a\x00\x00\x00\xff\x12\xd9\x41\x02\x00\x21\x01\x16\x00\x00\x00\x74\x2f\xe5\xa3\xe1\x86"
     "\x9f\x00"

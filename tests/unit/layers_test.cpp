@@ -1,5 +1,4 @@
-// Several elements across walls and gaps (refine/layers.h), and what the report says of a mesh
-// (api/condition.h).
+// Several elements across walls and gaps (refine/layers.h), and the report of a mesh (api/condition.h).
 #include "refine/layers.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +22,7 @@ namespace {
 
 using testing::mesh_with;
 
-// A slab with n x n squares on either side, and one row of them round it.
+// A slab with n x n squares on either side, and one row of them around it.
 Surface slab(int n, double thickness) {
   Surface s;
   const auto at = [&](int i, int j, int k) { return static_cast<Index>((i * (n + 1) + j) * 2 + k); };
@@ -48,7 +47,7 @@ Surface slab(int n, double thickness) {
   return s;
 }
 
-// The least number of edges on a path from one side to the other whose inner vertices and edges are not of
+// The least number of edges on a path from one side to the other whose inner vertices and edges are not on
 // the surface.
 int edges_across(const Volume& volume, const std::function<int(const Point&)>& side_of, std::size_t surface) {
   std::set<std::array<Index, 2>> on_facets;

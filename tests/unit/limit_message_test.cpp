@@ -1,4 +1,4 @@
-// What calls say that a limit ended.
+// The messages of calls that a limit ended.
 #include "mesh/limit_message.h"
 
 #include <gtest/gtest.h>

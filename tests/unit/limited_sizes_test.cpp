@@ -1,4 +1,4 @@
-// Where the surface limits sizes: what the report tells of it, and the warning.
+// Sizes limited by the surface: the report and the warning.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST(LimitedSizes, NothingIsLimitedOnGoodTrianglesOfTheSize) {
   }
 }
 
-// A wall two sizes thick has points in its middle; the fewer, the thicker the sizes are.
+// A wall two sizes thick has points in its middle; larger sizes give fewer.
 TEST(LimitedSizes, WallsBetweenLargeTrianglesFillAsSizesShrink) {
   std::size_t before = 12;
   for (const double part : {0.6, 0.55, 0.5, 0.45, 0.4, 0.35}) {

@@ -1,4 +1,4 @@
-// The program round the library may have set a locale with a decimal comma: no message and no file changes.
+// The calling program may have set a locale with a decimal comma: no message and no file changes.
 #include <gtest/gtest.h>
 
 #include <algorithm>

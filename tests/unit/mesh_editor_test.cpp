@@ -1,4 +1,4 @@
-// MeshEditor: operations of its own, and where the validator stands. Cavities: mesh_replace_test.cpp.
+// MeshEditor: its own operations, and when the validator runs. Cavities: mesh_replace_test.cpp.
 #include <gtest/gtest.h>
 
 #include <stdexcept>

@@ -1,4 +1,5 @@
-// Kernels of cavities: what is found lies inside, exactly, however narrow; nothing is found where nothing is.
+// Kernels of cavities: a point that is found lies inside, exactly, however narrow; none is found in an empty
+// kernel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +27,7 @@ Vector cross(const Vector& a, const Vector& b) {
 }
 double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 
-// Triangles in chosen planes; a mesh without tetrahedra that holds their corners.
+// Triangles in chosen planes, in a mesh without tetrahedra that has their corners.
 struct Cavity {
   TetMesh mesh;
   std::vector<FaceKey> faces;
@@ -149,7 +150,7 @@ TEST(Kernel, NarrowSlabs) {
   }
 }
 
-// In doubles where doubles reach inside, else at an exact position.
+// In doubles if some lie inside, otherwise at an exact position.
 TEST(Kernel, BetweenNeighbouringDoubles) {
   const double ulp = std::numeric_limits<double>::epsilon();
   const ExactPoint below = exact::lift(Point{0.3, 0.2, 1}.data());
@@ -210,7 +211,7 @@ TEST(Kernel, EmptyOnesAreFoundToBeSo) {
   for (FaceKey& f : inverted.faces) std::swap(f[0], f[1]);
   EXPECT_FALSE(inverted.kernel().find({approx.data(), nullptr}).has_value());
   EXPECT_LE(inverted.kernel().centre({approx.data(), nullptr}).radius, 0);
-  // Two half-spaces that look away from each other, a hair apart.
+  // Two half-spaces that face away from each other, slightly apart.
   Cavity apart = slab(origin, 1e-15);
   for (std::size_t k = 6; k < 8; ++k) std::swap(apart.faces[k][0], apart.faces[k][1]);
   EXPECT_FALSE(apart.kernel().find({approx.data(), nullptr}).has_value());

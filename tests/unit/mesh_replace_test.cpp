@@ -1,4 +1,4 @@
-// Replacement of cavities: what it keeps, what it adds, and what it refuses without a trace.
+// Replacement of cavities: what it keeps, what it adds, and what it refuses without any change.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -73,7 +73,7 @@ Plan split(TetMesh& mesh, Tet t, int corners) {
   return plan;
 }
 
-// The constraints that lie inside a cavity, that is, that its replacement takes away.
+// The constraints inside a cavity, which its replacement removes.
 bool holds_constraints(const TetMesh& mesh, const Plan& plan) {
   std::set<FaceKey> new_faces;
   std::set<EdgeEnds> new_edges;
@@ -109,7 +109,7 @@ void constrain_at_random(TetMesh& mesh, Random& random, int count) {
   }
 }
 
-// With all that counts: what is where, and in which slot.
+// Compares everything that counts: the contents, and their slots.
 void expect_same(const TetMesh& mesh, const TetMesh& other) {
   ASSERT_EQ(mesh.slot_count(), other.slot_count());
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
@@ -254,7 +254,7 @@ TEST(Replace, AddsTheConstraintsNamed) {
   for (std::size_t k = 0; k < created.size(); ++k) EXPECT_EQ(mesh.corners(created[k]), plan.new_tets[k]);
 }
 
-// A constraint in the way of a replacement goes: its bits may stay nowhere.
+// A constraint in the way of a replacement is removed: its bits must not stay anywhere.
 TEST(Replace, DropsConstraintsThatNoLongerStand) {
   TetMesh mesh = delaunay_in_box(random_points(40, 6));
   Random random(6);

@@ -63,7 +63,7 @@ TEST(Traverse, EdgesAndTheirShells) {
       ++edges;
       const std::vector<Tet> found = shell_of(mesh, a, b);
       EXPECT_EQ(found[0], t);
-      for (std::size_t k = 0; k < found.size(); ++k) {  // one after the other round the edge, one way
+      for (std::size_t k = 0; k < found.size(); ++k) {  // consecutive around the edge, in one direction
         const Tet s = found[k], next = found[(k + 1) % found.size()];
         const auto& cd = kOpposite[static_cast<std::size_t>(mesh.index_of(s, a))]
                                   [static_cast<std::size_t>(mesh.index_of(s, b))];
@@ -128,7 +128,7 @@ TEST(Traverse, SegmentBitsGoRoundTheShell) {
   EXPECT_EQ(find_fault(mesh), "");
 }
 
-// Random costs of triangles and diagonals, some of them forbidden: what is found costs what it says, and no
+// Random costs of triangles and diagonals, some of them forbidden: the result has the stated cost, and no
 // triangulation costs less.
 struct RandomCosts {
   using Cost = int;
@@ -198,7 +198,7 @@ TEST(LinkTriangulation, AgreesWithAnExhaustiveSearch) {
   EXPECT_GT(impossible, 20);
 }
 
-// Any triangulation that an edge's two ends see.
+// Any triangulation visible from both ends of an edge.
 struct Visible {
   using Cost = int;
   const TetMesh& mesh;

@@ -86,7 +86,7 @@ TEST_P(Shock, EdgesHaveUnitLengthAndElementsLieAlongTheLayer) {
   EXPECT_GT(in_layer, 300u);
   EXPECT_GT(along, 5 * across);
 
-  // As the metric sees them, elements are well shaped.
+  // In the metric, elements are well shaped.
   const Report::Field& field = result.report.field;
   EXPECT_GT(field.after.min_dihedral_deg, 8);
   EXPECT_EQ(
@@ -96,7 +96,7 @@ TEST_P(Shock, EdgesHaveUnitLengthAndElementsLieAlongTheLayer) {
   const auto near_one = std::accumulate(lengths.begin() + 5, lengths.begin() + 12, std::size_t{0});
   EXPECT_GT(10 * near_one, 7 * std::accumulate(lengths.begin(), lengths.end(), std::size_t{0}));
 
-  // Many more are needed where sizes are the same in all directions.
+  // Isotropic sizes need many more elements.
   const Result isotropic = mesh_with(sphere, {.field = [&](const Point& p) {
                                        const double d = std::abs(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]);
                                        return std::min(kAlong, kAcross + 0.3 * d);
@@ -116,7 +116,7 @@ TEST(MetricMesh, AnIsotropicMetricIsASize) {
   };
   const double by_size = tetrahedra({.size = 0.1});
   EXPECT_NEAR(tetrahedra({.metric = [](const Point&) { return isotropic_metric(0.1); }}) / by_size, 1, 0.15);
-  // The smaller of both counts, and what is not positive definite is no limit.
+  // The smaller of both counts, and a tensor that is not positive definite is no limit.
   EXPECT_NEAR(
       tetrahedra({.size = 0.1, .metric = [](const Point&) { return isotropic_metric(10); }}) / by_size, 1,
       0.15);

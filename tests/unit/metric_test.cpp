@@ -151,7 +151,7 @@ TEST(MetricField, EveryVertexNeedsAMetric) {
 
 class MetricFiles : public ::testing::Test {
  protected:
-  /// Writes the same mesh in all formats, with what these tensors are in each.
+  /// Writes the same mesh in all formats, with the given form of the tensors in each.
   void write(const std::string& lower, const std::string& full, const std::string& vtk) {
     samples::put(folder_ / "m.mesh",
                  "MeshVersionFormatted 2 Dimension 3 Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"

@@ -1,4 +1,4 @@
-// Mid-edge nodes: one an edge, in its middle, the same for all elements that share it.
+// Mid-edge nodes: one per edge, in its middle, the same for all elements that share it.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,4 @@
-// How often a call asks its caller whether to go on, and what it knows of memory.
+// How often a call polls its caller, and what it knows of memory.
 #include "mesh/monitor.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(Monitor, AsksWhileSizesAreAskedFor) {
   };
   EXPECT_EQ(mesh(surface.view(), options).outcome, Outcome::cancelled);
   EXPECT_GT(most, 0u);
-  EXPECT_LE(most, 1000u);  // a tenth of a second of them
+  EXPECT_LE(most, 1000u);  // they take a tenth of a second
 }
 
 TEST(Monitor, TellsWhatTheCallerThrew) {
@@ -99,7 +99,7 @@ TEST(Threads, WhatIsThrownBetweenTasksEndsThem) {
   for (const unsigned count : {1u, 3u}) {
     std::atomic<std::size_t> done = 0;
     const Threads threads = Threads(count).polling([&] { throw Interrupted(Outcome::cancelled); });
-    // Those of other threads take long enough that no pause of the calling one lets them do all.
+    // Tasks on other threads take so long that the calling thread also gets some.
     const auto task = [&](std::size_t k) {
       if (k != 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       ++done;
