@@ -315,7 +315,7 @@ class Call {
                                   {},
                                   "attempt " + std::to_string(result_.report.attempts) +
                                       " ended by an error (" + what +
-                                      "); what an earlier one had is delivered"});
+                                      "); the result of an earlier attempt is delivered"});
     } catch (...) {  // NOLINT(bugprone-empty-catch): there is no memory for the words
     }
   }

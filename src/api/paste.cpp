@@ -49,7 +49,7 @@ void require_sensible(std::span<const Surface> parts, const PasteOptions& option
   if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
     throw std::invalid_argument("the tolerance for pasting must be finite and not negative");
   if (options.keep == Keep::box)
-    throw std::invalid_argument("a part holds what it encloses: Keep::box is no rule for one");
+    throw std::invalid_argument("a part contains what it encloses, so Keep::box cannot apply to it");
   const auto fits = [](const auto& marks, const auto& entities) {
     return marks.empty() || marks.size() == entities.size();
   };
@@ -233,7 +233,7 @@ std::optional<repairing::Rounded> fit(repairing::State state, const Complex& com
   };
   const std::string within = " within " + decimal(options.tolerance) + " of ";
   if (has_tolerance && is_hopeless(state, step, threads))
-    return end("what was brought together" + within + "each other crosses nearly everywhere");
+    return end("the parts, brought together" + within + "each other, cross nearly everywhere");
   ExactSurface exact;
   RepairOptions arranging;
   static_cast<Limits&>(arranging) = options;

@@ -40,7 +40,7 @@ struct ConvertArguments {
 void suit(AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarget& target) {
   if (mesh.is_volume && !target.holds_volumes) {
     if (part_of(arguments.only).kind == Part::Kind::volume)
-      throw UsageError(fmt::format("{}: the format holds surfaces alone, and --only volume leaves none",
+      throw UsageError(fmt::format("{}: the format holds only surfaces, and --only volume leaves none",
                                    arguments.output.path.string()));
     if (!arguments.quiet) tell_of_surface_alone(arguments.output.path, mesh.volume);
     mesh.surface = surface_of(mesh.volume);
@@ -138,8 +138,8 @@ int run(const ConvertArguments& arguments) {
 
 void add_convert(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command =
-      app.add_subcommand("convert", "Write a surface or a volume in another format, and tell what is lost");
+  CLI::App* command = app.add_subcommand(
+      "convert", "Convert a surface or a volume to another format, and report what is lost");
   command->add_option("IN", arguments->input, "Surface or volume file, as for `mesh` and `check`")
       ->transform(or_standard_input)
       ->required();

@@ -196,8 +196,7 @@ int run(const DiagnoseArguments& arguments) {
 void add_diagnose(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* command = app.add_subcommand(
-      "diagnose",
-      "Tell what is wrong with a surface (exit 4), by cause and one by one, and what it encloses");
+      "diagnose", "Report the defects of a surface (exit 4), by cause and one by one, and what it encloses");
   command
       ->add_option(
           "SURFACE", arguments->surfaces,

@@ -112,7 +112,7 @@ void require_format(const fs::path& path, std::string_view format) {
   std::error_code ignored;
   if (format.empty() && !path.has_extension() && (descriptor_of(path) || fs::is_fifo(path, ignored)))
     throw UsageError(
-        fmt::format("{}: there is no ending that tells the format; give --input-format", called(path)));
+        fmt::format("{}: the name has no ending that gives the format; give --input-format", called(path)));
 }
 
 std::vector<std::string> without(std::vector<std::string> names, const std::vector<std::string>& others) {
@@ -157,7 +157,7 @@ void FilesOfRun::read_file(std::string_view option, const fs::path& path) {
 void FilesOfRun::read_size_field(std::string_view option, const fs::path& path) {
   if (path.empty()) return;
   if (path == standard_input)
-    throw UsageError(fmt::format("{}: name a file, whose ending tells the format", option));
+    throw UsageError(fmt::format("{}: name a file whose ending gives the format", option));
   read(option, files_of_size_field(path));
 }
 
@@ -207,7 +207,7 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
   if (std::find(known.begin(), known.end(), kind) == known.end())
     throw UsageError(fmt::format(
         "{}: {}; use {}{} (--format msh2 for version 2.2 of .msh) {}by --format", called(path),
-        kind.empty() ? "there is no ending that tells the format"
+        kind.empty() ? "the name has no ending that gives the format"
                      : "'" + kind + "' is no " + (or_surface ? "format to write" : "volume format"),
         fmt::join(known, " "),
         or_surface ? fmt::format(", of surfaces alone {},", fmt::join(without(surface_formats(), known), " "))
@@ -219,8 +219,8 @@ VolumeTarget FilesOfRun::write_volume(std::string_view option, const fs::path& p
       descriptor_of(linked(path)) || (status_of(path, status) && !S_ISREG(status.st_mode) &&
                                       !(kind == ".openfoam" && S_ISDIR(status.st_mode)));
   if (files.size() > 1 && is_stream)
-    throw UsageError(fmt::format("{}: the format {} is of {} files beside one another, which need a name",
-                                 called(path), kind, files.size()));
+    throw UsageError(fmt::format("{}: the format {} consists of {} files, which need a name", called(path),
+                                 kind, files.size()));
   // The folders of an OpenFOAM case need not exist yet.
   for (const fs::path& file : files) write(option, file, kind == ".openfoam");
   return target;
@@ -234,7 +234,7 @@ WriteOptions FilesOfRun::write_surface(std::string_view option, const fs::path& 
   const std::vector<std::string> known = surface_formats();
   if (std::find(known.begin(), known.end(), kind) == known.end())
     throw UsageError(fmt::format("{}: {}; use {} {}by --format", called(path),
-                                 kind.empty() ? "there is no ending that tells the format"
+                                 kind.empty() ? "the name has no ending that gives the format"
                                               : "'" + kind + "' is no format of surfaces to write",
                                  fmt::join(known, " "),
                                  path == standard_output ? "" : "as the file's ending or "));

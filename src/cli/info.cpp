@@ -90,7 +90,7 @@ std::string text_of(const std::filesystem::path& file, bool is_volume, const Sta
                    : fmt::format("{:.10g}", s.area));
   if (is_volume || s.closed)
     line("volume", fmt::format("{:.10g}{}", s.volume, is_volume ? "" : ", bounded by the triangles"));
-  if (!is_volume && !s.closed) line("volume", "none: not closed, or not turned one way");
+  if (!is_volume && !s.closed) line("volume", "none: not closed, or not consistently oriented");
   if (s.negative + s.null > 0)
     line("not positive", fmt::format("{} of negative volume, {} of none",
                                      counted(s.negative, "tetrahedron", "tetrahedra"), s.null));

@@ -12,9 +12,9 @@
 namespace holdfast::cli {
 
 void add_limits(CLI::App& command, LimitArguments& arguments) {
-  command.add_option("--time-limit", arguments.time_limit, "Give up after so many seconds (exit 5)")
+  command.add_option("--time-limit", arguments.time_limit, "Give up after this many seconds (exit 5)")
       ->option_text("S");
-  command.add_option("--memory-limit", arguments.memory_limit, "Give up beyond so much memory (exit 5)")
+  command.add_option("--memory-limit", arguments.memory_limit, "Give up above this much memory (exit 5)")
       ->option_text("GB");
 }
 

@@ -147,7 +147,7 @@ Targets note_files(const MeshArguments& arguments, const Options& options, Files
   Targets targets{output_target(files, "-o", arguments.output), {}};
   if (arguments.elements.order == 2 && !targets.volume.holds_volumes)
     throw UsageError(
-        fmt::format("--order 2 does nothing for {}: the format holds surfaces of first order alone",
+        fmt::format("--order 2 does nothing for {}: the format holds only surfaces of first order",
                     arguments.output.path.string()));
   targets.volume.options.threads = arguments.threads;
   watch_writing(targets.volume.options, options);
@@ -393,9 +393,9 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command->add_option("--threads", arguments->threads, threads_help)
       ->check(CLI::Range(0u, 4096u))
       ->option_text("N");
-  command->add_option("--time-limit", arguments->time_limit, "Give up after so many seconds (exit 5)")
+  command->add_option("--time-limit", arguments->time_limit, "Give up after this many seconds (exit 5)")
       ->option_text("S");
-  command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")
+  command->add_option("--memory-limit", arguments->memory_limit, "Give up above this much memory (exit 5)")
       ->option_text("GB");
   command->add_option("--report", arguments->report, "Write counts, times and quality as JSON")
       ->transform(or_standard_output)
@@ -407,7 +407,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   command
       ->add_option("--stop-after", arguments->stop_after,
-                   "Write what stands after validate, delaunay, flips, partition, eliminate, classify, "
+                   "Write the state after validate, delaunay, flips, partition, eliminate, classify, "
                    "suppress or field_points")
       ->option_text("STAGE");
   add_html_option(*command, arguments->html);

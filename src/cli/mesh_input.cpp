@@ -95,7 +95,7 @@ void tell_field_elsewhere(const MeshArguments& arguments, const Extent& field, c
   const Extent extent = extent_of(surface.vertices);
   const bool goes_further = arguments.keep && arguments.keep->starts_with("box");
   if (arguments.quiet || goes_further || field.meets(extent)) return;
-  say("holdfast: warning: no size of {} tells: its mesh lies in {}, and the surface in {}\n",
+  say("holdfast: warning: the sizes of {} have no effect: its mesh lies in {}, and the surface in {}\n",
       arguments.size_field.string(), words_for(field), words_for(extent));
 }
 

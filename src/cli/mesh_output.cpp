@@ -66,7 +66,7 @@ std::map<int, fs::path> files_of_regions(const fs::path& path, const Volume& vol
 
 void tell_of_surface_alone(const fs::path& path, const Volume& volume) {
   const std::set<int> regions(volume.regions.begin(), volume.regions.end());
-  say("holdfast: {}: the format holds surfaces alone: {} and the ids of {} are left out\n", path.string(),
+  say("holdfast: {}: the format holds only surfaces: {} and the ids of {} are left out\n", path.string(),
       counted(volume.tetrahedra.size(), "tetrahedron", "tetrahedra"), counted(regions.size(), "region"));
 }
 

@@ -41,9 +41,9 @@ VolumeTarget target_of_pieces(FilesOfRun& files, std::string_view option, const 
   const std::string kind = format_of(target);
   target.options.format = kind;
   if (!is_one_of(piece_formats(), kind))
-    throw UsageError(fmt::format("{}: {} not written in pieces; use {} as the file's ending or by --format",
-                                 path.string(), kind.empty() ? "what has no ending is" : "'" + kind + "' is",
-                                 fmt::join(piece_formats(), " ")));
+    throw UsageError(fmt::format(
+        "{}: {} not written in pieces; use {} as the file's ending or by --format", path.string(),
+        kind.empty() ? "a file without an ending is" : "'" + kind + "' is", fmt::join(piece_formats(), " ")));
   if (descriptor_of(path)) throw UsageError(fmt::format("{}: pieces need a name", path.string()));
   if (writing.one_file) throw UsageError("--one-file does nothing for pieces, which have files of their own");
   apply(writing, target);
@@ -66,7 +66,7 @@ VolumeTarget target_of_partition(FilesOfRun& files, std::string_view option,
                                  std::size_t pieces, const WriteArguments& writing) {
   if (pieces == 0) throw UsageError("--partition: one part or more are expected");
   if (pieces > std::size_t{std::numeric_limits<std::int32_t>::max()})
-    throw UsageError("--partition: so many parts have no numbers");
+    throw UsageError("--partition: more parts than can be numbered");
   if (!has_metis())
     throw UsageError("--partition: this program was built without METIS (Debian: libmetis-dev)");
   return target_of_pieces(files, option, path, format, pieces, writing);

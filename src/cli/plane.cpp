@@ -234,15 +234,15 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
       .add_option("--angle", arguments.angle,
                   "Add points until no angle is smaller, in degrees (up to 34; proven to end up to 26.45)")
       ->option_text("A");
-  command.add_flag("--keep-boundary", arguments.keep_boundary, "Add points inside alone, none on segments");
+  command.add_flag("--keep-boundary", arguments.keep_boundary, "Add points only inside, none on segments");
   command.add_option("--max-points", arguments.max_points, "Most points to add (default 10000000)")
       ->check(not_a_count)
       ->option_text("N");
   command.add_flag("--hull", arguments.hull,
-                   "Keep all within the convex hull, not what segments enclose alone");
+                   "Keep everything within the convex hull, not only what segments enclose");
   command
       .add_option("--stop-after", arguments.stop_after,
-                  "Write what stands after delaunay (swaps, partition), partition, or swap=K: after K swaps")
+                  "Write the state after delaunay (swaps, partition), partition, or swap=K: after K swaps")
       ->option_text("STAGE");
   command
       .add_option("--order", arguments.order,

@@ -309,7 +309,7 @@ void add_tetgen(CLI::App& app, Command& chosen) {
   command->set_help_flag("--help", "Print this help message and exit");
   command->allow_extras();
   command->footer(
-      "SWITCHES FILE come behind: p Y q a A m i d c o2 n z e f g k J B N E F I C Q V, as TetGen has them\n"
+      "SWITCHES FILE come last: p Y q a A m i d c o2 n z e f g k J B N E F I C Q V, as TetGen has them\n"
       "(docs/tetgen.md); .poly .smesh .node .off .ply .stl .mesh .vtk and all other surfaces.");
   command->add_option("--report", arguments->report, "Write counts, times and quality as JSON")
       ->transform(or_standard_output)

@@ -33,7 +33,7 @@ class Reader {
   }
 
   void run() {
-    if (at_ == text_.size()) throw UsageError("tetgen: a switch is expected behind '-'");
+    if (at_ == text_.size()) throw UsageError("tetgen: a switch is expected after '-'");
     while (at_ < text_.size()) {
       letter_ = text_[at_++];
       const std::string number = take_number();

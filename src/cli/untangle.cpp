@@ -196,9 +196,9 @@ void add_untangle(CLI::App& app, Command& chosen) {
                  "Then make elements better, with the boundary as it is; adds and removes inner vertices")
       ->excludes(no_refill);
   add_seed(*command, arguments->seed);
-  command->add_option("--time-limit", arguments->time_limit, "Give up after so many seconds (exit 5)")
+  command->add_option("--time-limit", arguments->time_limit, "Give up after this many seconds (exit 5)")
       ->option_text("S");
-  command->add_option("--memory-limit", arguments->memory_limit, "Give up beyond so much memory (exit 5)")
+  command->add_option("--memory-limit", arguments->memory_limit, "Give up above this much memory (exit 5)")
       ->option_text("GB");
   command->add_option("--report", arguments->report, "Write counts and times as JSON")
       ->transform(or_standard_output)

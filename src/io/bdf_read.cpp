@@ -29,8 +29,7 @@ class BdfReader {
       text_.seek(behind_);
     }
     if (const auto twice = nodes_.finish())
-      throw FileError(text_.source().path, "",
-                      "the grid point " + std::to_string(*twice) + " is there twice");
+      throw FileError(text_.source().path, "", "the grid point " + std::to_string(*twice) + " occurs twice");
     if (has_default_system_ && default_system_)
       text_.fail_at(*default_system_, "grid points in a coordinate system of their own are not read");
     for (const Element& element : elements_) add(element);

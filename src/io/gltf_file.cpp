@@ -123,7 +123,7 @@ std::size_t GltfFile::entry_of(const Json& value, std::string_view array) const 
   const std::size_t size = list(root_, array).size();
   const std::uint64_t index = value.is_number_unsigned() ? value.get<std::uint64_t>() : kNone;
   if (index >= size)
-    fail(value, in_quotes(shown(value)) + " is the number of none of the " + std::to_string(size) + " " +
+    fail(value, in_quotes(shown(value)) + " is not the number of any of the " + std::to_string(size) + " " +
                     std::string(array));
   return static_cast<std::size_t>(index);
 }

@@ -170,8 +170,9 @@ class GltfReader {
     constexpr std::size_t kHarmless = std::size_t{1} << 22, kMostTimes = 4;
     read_ += more;
     if (read_ > kHarmless && read_ / kMostTimes > file_.bytes())
-      file_.fail(primitive, "the file has more than " + std::to_string(read_) +
-                                " vertices and corners of the same numbers; that is no mesh but a trap");
+      file_.fail(primitive,
+                 "the file has more than " + std::to_string(read_) +
+                     " vertices and corners of the same numbers; such a file is damaged or malicious");
   }
 
   void read_primitive(const Json& primitive, std::map<std::size_t, Index>& first_of, Solid& solid) {
@@ -270,7 +271,7 @@ class GltfReader {
     const auto hidden = static_cast<std::size_t>(
         std::count_if(meshes_.begin(), meshes_.end(), [](const auto& m) { return !m.has_value(); }));
     mesh.leave_out(hidden, "meshes that are not in the scene", "mesh that is not in the scene");
-    mesh.leave_out(file_.behind(), "bytes behind the file's end", "byte behind the file's end");
+    mesh.leave_out(file_.behind(), "bytes after the file's end", "byte after the file's end");
   }
 
   Source source_;

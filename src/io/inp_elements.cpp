@@ -21,7 +21,7 @@ namespace {
 [[noreturn]] void fail_twice(const Source& source, const char* what, std::int64_t number) {
   throw FileError(
       source.path, "",
-      "the " + std::string(what) + " " + std::to_string(number_in_file(number)) + " is there twice");
+      "the " + std::string(what) + " " + std::to_string(number_in_file(number)) + " occurs twice");
 }
 
 // Elements that connect or load nodes but have no shape: springs, dashpots, gaps, masses, inertias, heat

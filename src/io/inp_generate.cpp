@@ -18,7 +18,7 @@ void InpMade::count(const InpText& text, std::int64_t more) {
   const std::int64_t most = std::max(kHarmless, kMostTimes * bytes);
   if (more > most || (made_ += more) > most)
     text.reader().fail("the lines make more than " + std::to_string(most) +
-                       " nodes or elements of others; that is no mesh but a trap");
+                       " nodes or elements of others; such a file is damaged or malicious");
 }
 
 void InpGenerated::read_ngen(InpText& text, const InpKeyword& key) {

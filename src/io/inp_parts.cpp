@@ -26,7 +26,7 @@ Placement read_placement(InpText& text) {
   const std::vector<double> turn = reals_of(text, 7);
   Point axis{turn[3] - turn[0], turn[4] - turn[1], turn[5] - turn[2]};
   const double length = numbers::hypot(axis[0], axis[1], axis[2]);
-  if (!(length > 0)) text.reader().fail("an instance is turned about two points that are the same");
+  if (!(length > 0)) text.reader().fail("an instance is rotated about an axis through two equal points");
   for (double& x : axis) x /= length;
   text.next();
   return Placement::turned({turn[0], turn[1], turn[2]}, axis, turn[6]).after(placement);

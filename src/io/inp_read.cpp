@@ -121,7 +121,7 @@ class InpReader {
     const std::size_t size = mesh_.vertices.size() + elements_.size();
     if (size > kHarmless && size / kMostTimes > text_.reader().source().bytes.size())
       text_.reader().fail("the instances of the parts have more than " + std::to_string(size) +
-                          " nodes and elements; that is no mesh but a trap");
+                          " nodes and elements; such a file is damaged or malicious");
   }
 
   /// Gives the entities of sets their ids; `markers` are those of facets from surfaces, which take

@@ -105,7 +105,7 @@ std::string_view view_of(const std::optional<FileBytes>& bytes) {
 
 void tell_behind(const std::optional<FileBytes>& bytes, MeshData& mesh) {
   if (bytes)
-    mesh.leave_out(bytes->behind(), "bytes behind the compressed data", "byte behind the compressed data");
+    mesh.leave_out(bytes->behind(), "bytes after the compressed data", "byte after the compressed data");
 }
 
 /// The format's name as in the table: lower case, with a dot.

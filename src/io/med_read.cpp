@@ -63,7 +63,8 @@ class MedReader {
     read_families(name);
     read_nodes(parts.at("NOE"), mesh);
     if (parts.contains("MAI")) read_elements(parts.at("MAI"));
-    turn_if_all_are_turned(mesh_, "all tetrahedra are turned as in VTK and not as in MED, and are read so");
+    turn_if_all_are_turned(mesh_,
+                           "all tetrahedra are oriented as in VTK, not as in MED, and are read that way");
     mesh_.names = {facets_.take(), regions_.take(), segments_.take(), vertices_.take()};
     return std::move(mesh_);
   }

@@ -68,10 +68,10 @@ class MshReader {
       text_.fail("numbers of " + std::to_string(size) + " bytes are not read");
     text_.skip_line();
     const std::string_view one = text_.remaining().substr(0, 4);
-    if (one.size() < 4) text_.fail_truncated("the number 1, which tells the order of bytes");
+    if (one.size() < 4) text_.fail_truncated("the number 1, which shows the byte order");
     for (const std::endian order : {std::endian::little, std::endian::big})
       if (load<std::int32_t>(one.data(), order) == 1) in_.set_binary(order, static_cast<std::size_t>(size));
-    if (!in_.binary()) text_.fail("the number 1, which tells the order of bytes, is missing");
+    if (!in_.binary()) text_.fail("the number 1, which shows the byte order, is missing");
     text_.seek(text_.position() + 4);
   }
 
@@ -115,7 +115,7 @@ class MshReader {
     const std::size_t count = text_.count("the number of names", 5);
     for (std::size_t i = 0; i < count; ++i) {
       const std::int64_t dimension = text_.integer("a dimension");
-      if (dimension < 0 || dimension > 3) text_.fail("a dimension that is none of 0 to 3");
+      if (dimension < 0 || dimension > 3) text_.fail("a dimension outside 0 to 3");
       const int tag = text_.tag("a physical tag");
       const std::string_view rest = text_.rest_of_line();
       const std::size_t start = rest.find('"'), end = rest.rfind('"');

@@ -265,7 +265,7 @@ class PlyReader {
       if (other.name == "vertex" && other.position > element.position)
         text_.fail_at(element.position,
                       "the element " + in_quotes(element.name) +
-                          " stands before the vertices, and is not read so: save vertices first");
+                          " comes before the vertices, which is not supported: save vertices first");
   }
 
   static std::size_t least_size(const Element& element) {

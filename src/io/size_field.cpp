@@ -251,7 +251,7 @@ SizeField read_size_field(const std::filesystem::path& path, const ReadOptions& 
     throw FileError(path, "", "the background mesh has no tetrahedra");
   if (is_flat(field))
     throw FileError(path, "",
-                    "every tetrahedron of the background mesh is flat, so that it has sizes nowhere");
+                    "every tetrahedron of the background mesh is flat, so it has no sizes anywhere");
   for (std::size_t v = 0; v < field.sizes.size(); ++v)
     if (!(field.sizes[v] > 0 && std::isfinite(field.sizes[v])))
       throw FileError(path, "vertex " + std::to_string(v), "the size is not a positive number");

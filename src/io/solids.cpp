@@ -20,7 +20,7 @@ void Solids::refuse_a_trap(const Solid& solid) const {
     throw FileError(source_.path, "",
                     "holds more than " + std::to_string(copies_) + " copies of its objects, " +
                         std::to_string(mesh_.facets.size()) +
-                        " triangles in all; that is no mesh but a trap");
+                        " triangles in all; such a file is damaged or malicious");
   if (mesh_.vertices.size() + solid.vertices.size() >= no_entity)
     throw FileError(source_.path, "", "has more vertices than 32 bits count");
 }

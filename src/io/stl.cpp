@@ -79,7 +79,7 @@ MeshData read_binary(const Source& source) {
     set += load<std::uint16_t>(attributes + kRecord * i, std::endian::little) != 0 ? 1 : 0;
   mesh.leave_out(set, "attributes of triangles (colours, perhaps)",
                  "attribute of a triangle (its colour, perhaps)");
-  mesh.leave_out(behind, "bytes behind the triangles", "byte behind the triangles");
+  mesh.leave_out(behind, "bytes after the triangles", "byte after the triangles");
   return mesh;
 }
 

@@ -87,8 +87,8 @@ MeshData read_tetgen_volume(const Source& source) {
   };
   const std::size_t more = second ? read_lines<10>(text, number, nodes, count, attributes, add_tet10)
                                   : read_lines<4>(text, number, nodes, count, attributes, add_tet);
-  mesh.leave_out(more, "attributes of tetrahedra behind the first",
-                 "attribute of a tetrahedron behind the first");
+  mesh.leave_out(more, "attributes of tetrahedra after the first",
+                 "attribute of a tetrahedron after the first");
   const auto face = sibling(source.path, ".face"), edge = sibling(source.path, ".edge");
   const char* const face_number = "the face's number";
   const char* const edge_number = "the edge's number";

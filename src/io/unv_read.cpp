@@ -277,7 +277,7 @@ class UnvReader {
 
   [[noreturn]] void fail_twice(const char* what, std::int64_t number) const {
     throw FileError(text_.source().path, "",
-                    "the " + std::string(what) + " " + std::to_string(number) + " is there twice");
+                    "the " + std::string(what) + " " + std::to_string(number) + " occurs twice");
   }
 
   struct Part {  ///< the elements of a group with one dimension

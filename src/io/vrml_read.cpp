@@ -84,7 +84,8 @@ class VrmlReader {
   void visit(const VrmlNode& node, State& state, const std::string& name_around) {
     if (++depth_ > kDeepest) scene_.fail(node, "nodes stand more than " + std::to_string(kDeepest) + " deep");
     if (++visits_ > kMostVisits)
-      scene_.fail(node, "nodes are used more than " + std::to_string(kMostVisits) + " times; that is a trap");
+      scene_.fail(node, "nodes are used more than " + std::to_string(kMostVisits) +
+                            " times; such a file is damaged or malicious");
     step(source_.watch);
     // In version 2.0, the shape and the nodes around it have better names than the geometry.
     const bool is_geometry = !scene_.is_first_version() && node.type == "IndexedFaceSet";

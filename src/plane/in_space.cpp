@@ -168,7 +168,8 @@ PlaneResult triangulate(const PlanesInSpace& planes, const PlaneOptions& options
     return triangulate(planes.parts[0].plane, options, poll);
   if (planes.parts.size() > 1 && (options.size > 0 || options.angle) && !options.keep_boundary)
     throw std::invalid_argument(
-        "polygons of several planes are refined with their boundary kept alone, since they would not fit");
+        "polygons in several planes can only be refined with their boundary kept, since they would not fit "
+        "otherwise");
   Together together(planes);
   const auto count = static_cast<double>(planes.parts.size());
   for (std::size_t i = 0; i < planes.parts.size(); ++i) {

@@ -139,7 +139,7 @@ std::shared_ptr<const Background> background_of(SizeField field) {
       if (v >= field.vertices.size())
         throw std::invalid_argument("a size field names a vertex it does not have");
   if (is_flat(field))
-    throw std::invalid_argument("every tetrahedron of the size field is flat, so that it has sizes nowhere");
+    throw std::invalid_argument("every tetrahedron of the size field is flat, so it has no sizes anywhere");
   return std::make_shared<const Background>(std::move(field));
 }
 

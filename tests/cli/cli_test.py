@@ -195,7 +195,7 @@ class Mesh(CliTest):
     def test_a_size_field_elsewhere_is_told(self):
         self.write("f.pos", 'View "f" {\nSS(2,2,2, 3,2,2, 2,3,2, 2,2,3){0.1,0.1,0.1,0.1};\n};\n')
         told = self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "f.pos").stderr
-        self.assertIn("no size of f.pos tells: its mesh lies in (2, 2, 2) to (3, 3, 3)", told)
+        self.assertIn("the sizes of f.pos have no effect: its mesh lies in (2, 2, 2) to (3, 3, 3)", told)
         self.assertNotIn("no size", self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "f.pos", "--keep", "box=3").stderr)
         self.write("e.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 0 Tetrahedra 0 End\n")
         self.write("e.sol", "MeshVersionFormatted 2 Dimension 3 SolAtVertices 0 1 1 End\n")

@@ -49,7 +49,7 @@ TEST_F(Gltf, BuffersInTheFileAndBesideIt) {
     EXPECT_EQ(said(s), "");
   }
   EXPECT_EQ(said(surface(glb(gltf_json(""), gltf_buffer()) + "more", "a.glb")),
-            "4 bytes behind the file's end are left out\n");
+            "4 bytes after the file's end are left out\n");
 }
 
 TEST_F(Gltf, NodesPlaceTheirMeshes) {
@@ -143,7 +143,7 @@ TEST_F(Gltf, Errors) {
   EXPECT_EQ(error(replaced(gltf(), "5123,\"count\":12", "5126,\"count\":6")).substr(0, 45),
             "/meshes/0/primitives/0: the vertex 1.83670992");
   EXPECT_EQ(error(replaced(gltf(), "\"nodes\":[0]", "\"nodes\":[1]")),
-            "/scenes/0/nodes/0: '1' is the number of none of the 1 nodes");
+            "/scenes/0/nodes/0: '1' is not the number of any of the 1 nodes");
   EXPECT_EQ(error(gltf(R"("nodes":[{"mesh":0},{"children":[1]}],"scenes":[{"nodes":[1]}])")),
             "/nodes/1: node 1 is a child of two nodes, or of itself");
   EXPECT_EQ(error(gltf(R"("extensionsRequired":["KHR_draco_mesh_compression"])")),
@@ -192,7 +192,7 @@ TEST_F(Gltf, ALongStringOfItsJsonCanBeStopped) {
   EXPECT_THROW(static_cast<void>(io::parse_surface({path, bytes, false, &watch}, ".gltf")), Interrupted);
 }
 
-// These would take an hour if with each of them all before it were looked at.
+// These would take an hour if all previous ones were examined for each of them.
 TEST_F(Gltf, TheTimeGrowsWithTheNumberOfValues) {
   std::string extras = "\"extras\":[{}";
   for (int i = 0; i < 2000000; ++i) extras += ",{}";
@@ -211,7 +211,8 @@ TEST_F(Gltf, CountsAndIndicesAreWholeNumbers) {
                                           {"null", "null"},
                                           {"[0]", "array"},
                                           {"18446744073709551615", "18446744073709551615"}})
-    EXPECT_EQ(with_node(index), "/scenes/0/nodes/0: '" + is_shown + "' is the number of none of the 1 nodes");
+    EXPECT_EQ(with_node(index),
+              "/scenes/0/nodes/0: '" + is_shown + "' is not the number of any of the 1 nodes");
   for (const std::string count : {"4.0", "-4", "\"4\"", "1e400", "99999999999999", "true"})
     EXPECT_NE(error(replaced(gltf(), "\"count\":4,", "\"count\":" + count + ",")), "read") << count;
 }
@@ -257,7 +258,7 @@ TEST_F(Gltf, FilesThatItIs) {
   EXPECT_EQ(files_of_surface(binary), (std::vector{binary, folder_ / "d.bin"}));
 }
 
-// A small file with a large buffer beside it is none.
+// A small file with a large buffer beside it is not refused.
 TEST_F(Gltf, PrimitivesOfTheSameNumbersAreATrap) {
   const std::string fans =
       R"("bufferViews":[{"buffer":0,"byteLength":12000000}],
@@ -277,7 +278,7 @@ TEST_F(Gltf, PrimitivesOfTheSameNumbersAreATrap) {
 "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
 {"bufferView":1,"componentType":5121,"count":1200000,"type":"SCALAR"}])";
   EXPECT_NE(error(gltf(kGltfScene, "\"meshes\":[{\"primitives\":[" + primitives + "]}]", numbers, zeros))
-                .find("is no mesh but a trap"),
+                .find("is damaged or malicious"),
             std::string::npos);
 }
 

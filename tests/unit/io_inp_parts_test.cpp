@@ -84,7 +84,7 @@ TEST_F(InpParts, ErrorsSpeakOfTheFile) {
             "line 52: the instance 'Block-2' does not exist");
   EXPECT_EQ(
       error(replaced(text, "5.,           0.,          1.,    90.", "5.,           0.,          0.,    90.")),
-      "line 49: an instance is turned about two points that are the same");
+      "line 49: an instance is rotated about an axis through two equal points");
   EXPECT_EQ(error(replaced(text, "*End Part\n**\n** ASSEMBLY",
                            "*Instance, name=Lid-3, part=Lid\n*End Instance\n*End Part\n** ASSEMBLY")),
             "line 34: an instance within a part or an instance");
@@ -92,7 +92,7 @@ TEST_F(InpParts, ErrorsSpeakOfTheFile) {
             "line 7: the part 'Block' does not end with *END PART");
   EXPECT_EQ(error(replaced(text, "      4,           0.,           0.,           -1.",
                            "      3,           0.,           0.,           -1.")),
-            "the node 3 is there twice");
+            "the node 3 occurs twice");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What each reader takes in: the variants of its format, and the errors that name the line.
+// What each reader accepts: the variants of its format, and the errors that name the line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -139,7 +139,7 @@ TEST(Stl, BytesBehindTheTrianglesThatAreNoneAreLeftOut) {
   const Surface s = surface(bytes + "\r\n", "a.stl");
   EXPECT_EQ(s.facets.size(), 1u);
   ASSERT_EQ(s.remarks.size(), 1u);
-  EXPECT_EQ(s.remarks[0].message, "2 bytes behind the triangles are left out");
+  EXPECT_EQ(s.remarks[0].message, "2 bytes after the triangles are left out");
   EXPECT_EQ(surface(kStl + std::string(100, '\0'), "a.stl").facets, surface(kStl, "a.stl").facets);
 }
 
@@ -177,7 +177,7 @@ TEST(Obj, ElementsAndRelativeIndices) {
   EXPECT_EQ(s.vertices.size(), 5u);
   EXPECT_EQ(s.facets, (Facets{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}}));
   EXPECT_EQ(s.segments, (Segments{{0, 4}, {4, 1}}));
-  // Relative indices count from the line where they stand; absolute ones may look ahead.
+  // Relative indices count from their line; absolute ones may refer to later lines.
   EXPECT_EQ(surface("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 \\\n -1 # x\nv 1 1 1\n", "a.obj").facets,
             (Facets{{0, 1, 2}, {0, 1, 2}}));
 }
@@ -252,7 +252,7 @@ TEST(Medit, Errors) {
   EXPECT_EQ(error(replaced(kMesh, "\n3\n#", "\n4\n#"), "a.mesh"), "line 3: the dimension is neither 3 nor 2");
 }
 
-// SfePy's meshes end so.
+// SfePy's meshes end this way.
 TEST(Medit, WithoutEndIsReadAndTold) {
   const Surface s = surface(replaced(kMesh, "End\n", ""), "a.mesh");
   EXPECT_EQ(s.facets, surface(kMesh, "a.mesh").facets);
@@ -389,7 +389,7 @@ TEST(Msh, Version4) {
 
 TEST(Msh, Errors) {
   EXPECT_EQ(error(replaced(kMsh2, "2.2 0 8", "2.2 1 8"), "a.msh"),
-            "line 2: the number 1, which tells the order of bytes, is missing");
+            "line 2: the number 1, which shows the byte order, is missing");
   EXPECT_EQ(error(replaced(kMsh2, "2.2 0 8", "5 0 8"), "a.msh"),
             "line 2: version '5' is not read; save it as 4.1 or 2.2");
   EXPECT_EQ(error(replaced(kMsh2, "1 10 30 20", "1 10 30 25"), "a.msh"),
@@ -433,7 +433,7 @@ TEST(Vtu, Ascii) {
 }
 
 TEST(Vtu, Base64) {
-  // 4 bytes of size and 12 of data, encoded together; and with the size encoded apart.
+  // 4 bytes of size and 12 of data, encoded together; and with the size encoded separately.
   for (const char* offsets : {"DAAAAAQAAAAHAAAACQAAAA==", "DAAAAA==BAAAAAcAAAAJAAAA"}) {
     const std::string text = replaced(kVtu, "Name=\"offsets\" format=\"ascii\">4 7 9",
                                       std::string("Name=\"offsets\" format=\"binary\">\n ") + offsets + "\n");

@@ -1,5 +1,5 @@
-// Formats of solvers: what is written reads back with its regions, markers and names, of first and second
-// order; names that a format does not allow never break it; bad files are told by their lines.
+// Formats of solvers: volumes of first and second order read back with their regions, markers and names;
+// names that a format does not allow never break it; errors in files name their lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -136,7 +136,7 @@ TEST(SolverFormats, UnmarkedFacetsGetTheNextFreeNumber) {
 TEST(SolverFormats, KeepSecondOrder) {
   Volume volume = assembly();
   add_mid_nodes(volume);
-  volume.mid_nodes.points[2][0] += 0.0625;  // so that no order of nodes passes for another
+  volume.mid_nodes.points[2][0] += 0.0625;  // so that no two orders of nodes are equivalent
   for (const Held& held : formats()) {
     const TemporaryFolder folder;
     write_volume(folder / held.name, volume, held.options);
@@ -205,7 +205,7 @@ TEST(SolverFormats, AVtuAndItsSurfaceBelongTogether) {
   const std::string grid = get(folder / "a.vtu");
   EXPECT_NE(grid.find("NumberOfCells=\"2\""), std::string::npos);
   EXPECT_NE(grid.find("Name=\"mat_id\""), std::string::npos);
-  // Another volume's surface is refused, and one that is missing told.
+  // Another volume's surface is refused, and a missing one is reported.
   Volume other = assembly();
   other.vertices[4][2] = -0.5;
   write_volume(folder / "b.vtu", other);
@@ -262,7 +262,7 @@ TEST(SolverFormats, BadFilesAreToldByTheirLines) {
             "line 4: the node 9 does not exist");
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D9\n").substr(0, 32),
             "line 3: elements of type 'C3D9' ");
-  EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n"), "the node 1 is there twice");
+  EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n"), "the node 1 occurs twice");
   EXPECT_EQ(error("a.inp", "*NODE\n1, 0, 0, 0\n*SURFACE, NAME=s\n5, S1\n"),
             "line 4: the element 5 does not exist");
   EXPECT_EQ(
@@ -397,7 +397,7 @@ TEST(SolverFormats, ElementsOfAbaqusWithoutAShape) {
       "*ELEMENT, TYPE=D\n5, 0, 2, 3\n*ELSET, ELSET=all\n1, 2, 3, 4, 5\n");
   std::vector<Remark> remarks;
   const Volume volume = read_volume(folder / "a.inp", {}, &remarks);
-  // Coordinates that are not there are zero.
+  // Missing coordinates are zero.
   EXPECT_EQ(volume.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
   EXPECT_EQ(volume.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}}));
   EXPECT_TRUE(volume.segments.empty());
@@ -410,7 +410,7 @@ TEST(SolverFormats, ElementsOfAbaqusWithoutAShape) {
       "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=DS4\n1, 1, 2, 3, 4\n");
   EXPECT_EQ(read_surface(folder / "ds.inp").facets.size(), 2u);
   put(folder / "b.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=MASS\n1, 1\n*ELEMENT, TYPE=SPRINGA\n1, 1, 1\n");
-  EXPECT_THROW((void)read_volume(folder / "b.inp"), FileError);  // the element 1 is there twice
+  EXPECT_THROW((void)read_volume(folder / "b.inp"), FileError);  // the element 1 occurs twice
 }
 
 }  // namespace

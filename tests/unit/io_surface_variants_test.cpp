@@ -1,5 +1,5 @@
-// What surface files of other programs have in their heads and lines: numbers that were not known,
-// dimensions, colours, an order of elements, arrays of strings.
+// Peculiarities of surface files from other programs: unknown counts, dimensions, colours, an order of
+// elements, arrays of strings.
 #include <gtest/gtest.h>
 
 #include "io_samples.h"
@@ -77,14 +77,15 @@ TEST_F(SurfaceVariants, FacesBeforeVerticesInPly) {
   const std::string head = "ply\nformat ascii 1.0\n",
                     faces = "element face 1\nproperty list int int vertex_indices\n",
                     vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-  EXPECT_EQ(error(head + faces + vertices + "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n", "a.ply"),
-            "line 3: the element 'face' stands before the vertices, and is not read so: save vertices first");
+  EXPECT_EQ(
+      error(head + faces + vertices + "end_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n", "a.ply"),
+      "line 3: the element 'face' comes before the vertices, which is not supported: save vertices first");
   EXPECT_EQ(
       surface(head + vertices + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.ply").facets.size(),
       1u);
 }
 
-// VTK writes arrays of strings and bits, a string in bytes behind its length, in text one a line.
+// VTK writes arrays of strings and bits: a binary string after its length, text strings one per line.
 TEST_F(SurfaceVariants, LegacyVtkArraysOfStringsAndBitsAreLeftOut) {
   const auto told = [&](const std::string& bytes) {
     const Surface s = surface(bytes, "a.vtk");

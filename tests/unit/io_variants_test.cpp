@@ -1,5 +1,5 @@
-// Variants of formats that many programs write: binary OFF and .msh, strips, quadrangles, packed files,
-// sections without data; and numbers that no file can mean.
+// Variants of formats that many programs write: binary OFF and .msh, strips, quadrangles, compressed files,
+// sections without data; and numbers that make no sense in any file.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -93,8 +93,7 @@ TEST_F(Variants, BinaryMshInBothVersionsAndByteOrders) {
   EXPECT_NE(error(binary_msh(true, false).substr(0, 300), "a.msh").find("truncated"), std::string::npos);
 }
 
-/// Version 4.0 as text or as bytes: tags of entities come before their dimensions, and beside each node its
-/// tag.
+/// Version 4.0 as text or as bytes: tags of entities precede their dimensions, and each node follows its tag.
 std::string msh_4_0(bool binary) {
   const auto i = [&](std::int32_t value) {
     return binary ? raw(value, false) : std::to_string(value) + "\n";
@@ -129,8 +128,8 @@ std::string msh_4_0(bool binary) {
   return text + "\n$EndElements\n";
 }
 
-/// Entities are text, also where numbers are bytes. The second node has parameters on a curve, the third on
-/// a surface; the tetrahedron is in a part.
+/// Entities are text even if numbers are bytes. The second node has parameters on a curve, the third on a
+/// surface; the tetrahedron is in a part.
 std::string msh_3(bool binary) {
   const auto i = [&](std::int32_t v) { return binary ? raw(v, false) : std::to_string(v) + " "; };
   const auto x = [&](double v) { return binary ? raw(v, false) : std::to_string(v) + " "; };
@@ -272,7 +271,7 @@ TEST_F(Variants, AQuadrangleWithARepeatedCornerIsATriangle) {
   EXPECT_EQ(surface(points + "4 0 1 2 0\n", "a.off").facets, (Facets{{1, 2, 0}}));
   EXPECT_EQ(surface(points + "5 0 1 1 2 3\n", "a.off").facets, (Facets{{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(surface(points + "4 0 1 3 4\n", "a.off").facets, (Facets{{0, 1, 3}}));  // at one place
-  // Two places make no triangle; that is for `diagnose` to say.
+  // Two places make no triangle; `diagnose` reports that.
   EXPECT_EQ(surface(points + "4 0 0 1 1\n", "a.off").facets, (Facets{{0, 0, 1}}));
 }
 
@@ -309,7 +308,7 @@ TEST_F(Variants, LegacyVtkSectionsWithoutArrays) {
   }
 }
 
-// Geomview's files may begin with how to draw them.
+// Geomview's files may begin with display settings.
 TEST_F(Variants, OffWithAnAppearance) {
   const Facets facets = surface(kOff, "a.off").facets;
   for (const char* before :
@@ -368,7 +367,7 @@ TEST_F(Variants, PackedFiles) {
 }
 
 TEST_F(Variants, WhatStandsBehindAPackedFileIsTold) {
-  const std::string said = "12 bytes behind the compressed data are left out";
+  const std::string said = "12 bytes after the compressed data are left out";
   const Surface s = surface(gzip(kOff) + "and not more", "a.off.gz");
   ASSERT_FALSE(s.remarks.empty());
   EXPECT_EQ(s.remarks.back().message, said);
@@ -396,7 +395,7 @@ TEST_F(Variants, DamagedPackedFiles) {
 }
 
 TEST_F(Variants, AnArrayOfTooManyValuesIsNotUnpacked) {
-  // One block stands for all: 3 GiB of zeros that would take seconds to unpack.
+  // One block repeated: 3 GiB of zeros that would take seconds to unpack.
   const std::uint64_t block = std::uint64_t{1} << 20, blocks = 3072;
   std::string packed(compressBound(block), '\0');
   uLongf size = packed.size();
