@@ -38,7 +38,7 @@ def _jobs(text: str) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="holdfast batch",
-        description="Mesh many surfaces, each in a process of its own, so that one failure costs one part.",
+        description="Mesh many surfaces, each in its own process, so that one failure costs one part.",
         epilog="What follows `--` goes to `holdfast mesh` as it is, for every part: holdfast batch *.stl -o out -- --fill. "
         "Exit codes: 0 all are done; 1 some are not; 2 wrong usage; 5 interrupted.",
         allow_abbrev=False,

@@ -65,7 +65,7 @@ int run(const std::vector<std::string>& arguments) {
 
 void add_batch(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
-      "batch", "Mesh many surfaces, each in a process of its own (batch --help; needs the Python package)");
+      "batch", "Mesh many surfaces, each in its own process (batch --help; needs the Python package)");
   command->prefix_command();
   command->set_help_flag();
   command->callback(

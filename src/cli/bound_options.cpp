@@ -45,24 +45,20 @@ std::vector<int> ids_of(const std::string& text, const Names& names) {
 
 void add_bounds(CLI::App& command, BoundArguments& arguments) {
   command
-      .add_option(
-          "--max-volume", arguments.max_volumes,
-          "Field points: no tetrahedron is larger, anywhere or in a region by the id or name that the "
-          "mesh gives it (10=0.5, core=0.5), even at the price of flat ones, which are counted "
-          "(repeatable)")
+      .add_option("--max-volume", arguments.max_volumes,
+                  "Field points: no tetrahedron is larger, anywhere or in a region, by its id or name in the "
+                  "mesh (10=0.5, core=0.5), even at the price of flat ones, which are counted (repeatable)")
       ->allow_extra_args(false)
       ->option_text("[REGION=]V");
   command
-      .add_option(
-          "--max-ratio", arguments.max_ratio,
-          "Field points: aim at no larger ratio of the radius of the sphere round a tetrahedron to its "
-          "shortest edge; exceptions are counted")
+      .add_option("--max-ratio", arguments.max_ratio,
+                  "Field points: aim at no larger ratio of a tetrahedron's circumradius to its shortest "
+                  "edge; exceptions are counted")
       ->option_text("R");
   command
-      .add_option(
-          "--layers", arguments.layers,
-          "Field points: at least N elements across, on every path inside between two sides of a wall "
-          "or a gap that face each other, even at the price of flat elements; 1 to 100")
+      .add_option("--layers", arguments.layers,
+                  "Field points: at least N elements across, on every path inside between two facing sides "
+                  "of a wall or a gap, even at the price of flat elements; 1 to 100")
       ->check(CLI::Range(1U, 100U))
       ->option_text("N");
 }

@@ -153,7 +153,7 @@ void add_check(CLI::App& app, Command& chosen) {
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,
                     "Accept missing facets that lie outside every tetrahedron (mesh --drop-outside)");
   command->add_flag("--box", arguments->options.box,
-                    "The mesh goes out to an enclosing box (mesh --keep box)");
+                    "The mesh extends to an enclosing box (mesh --keep box)");
   command->add_flag("--repaired", arguments->repaired,
                     "The last file is what `repair` made of the others, as --parents and --report claim");
   command

@@ -115,7 +115,7 @@ void add_delaunay(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("delaunay", "Delaunay tetrahedra of the convex hull of points");
   command
       ->add_option("POINTS", arguments->points,
-                   "Points: .xyz (three numbers a line), .node (TetGen), or the vertices of a surface file")
+                   "Points: .xyz (three numbers per line), .node (TetGen), or the vertices of a surface file")
       ->transform(or_standard_input)
       ->required();
   command

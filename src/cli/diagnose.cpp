@@ -198,13 +198,10 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "diagnose", "Report the defects of a surface (exit 4), by cause and one by one, and what it encloses");
   command
-      ->add_option(
-          "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .ts .mesh .meshb .poly .smesh .node "
-          ".msh .vtu .vtp .vtk, "
-          "each also .gz); "
-          "several count on from "
-          "one another; vertices with identical coordinates are one")
+      ->add_option("SURFACE", arguments->surfaces,
+                   "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .ts .mesh .meshb .poly "
+                   ".smesh .node .msh .vtu .vtp .vtk, each also .gz); several files are numbered one after "
+                   "the other; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")
@@ -214,7 +211,7 @@ void add_diagnose(CLI::App& app, Command& chosen) {
       ->transform(or_standard_output)
       ->option_text("FILE.json");
   add_html_option(*command, arguments->html);
-  command->add_flag("--all", arguments->all, "List every defect on a terminal, too, not 100 of a kind");
+  command->add_flag("--all", arguments->all, "List every defect on a terminal, too, not only 100 of a kind");
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
   add_tolerance(*command, arguments->tolerance);
   command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")

@@ -137,7 +137,7 @@ int run(const InfoArguments& arguments) {
 void add_info(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand(
-      "info", "Tell what a surface or volume file holds: counts, regions, markers, sizes, shapes");
+      "info", "Report the contents of a surface or volume file: counts, regions, markers, sizes, shapes");
   command->add_option("FILE", arguments->file, "Surface or volume file, -: standard input")
       ->transform(or_standard_input)
       ->required();
@@ -149,7 +149,7 @@ void add_info(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing of what the reader left out");
+  command->add_flag("-q,--quiet", arguments->quiet, "Do not report what the reader left out");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

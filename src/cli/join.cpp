@@ -125,8 +125,8 @@ int run(const JoinArguments& arguments) {
 
 void add_join(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<JoinArguments>();
-  CLI::App* command = app.add_subcommand("join", "Put the volumes of a split surface together");
-  command->add_option("DIR", arguments->folder, "What `holdfast split` wrote, with a volume for each part")
+  CLI::App* command = app.add_subcommand("join", "Join the volumes of a split surface");
+  command->add_option("DIR", arguments->folder, "The folder of `holdfast split`, with a volume for each part")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
@@ -138,8 +138,7 @@ void add_join(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   command->add_flag(
       "--as-parts", arguments->as_parts,
-      "Leave the parts as the pieces of K processes, in the formats that --partition has (.pvtu always "
-      "does)");
+      "Leave the parts as the pieces of K processes, in the formats of --partition (.pvtu always does)");
   add_partition(*command, arguments->pieces);
   add_write_options(*command, arguments->writing);
   add_limits(*command, arguments->limits);

@@ -292,9 +292,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->add_option(
           "SURFACE", arguments->surfaces,
           "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .ts .mesh .meshb .poly .smesh .node "
-          ".msh .vtu .vtp .vtk, "
-          "each also .gz, and whatever else `convert` reads); several count on from "
-          "one another; vertices with identical coordinates are one")
+          ".msh .vtu .vtp .vtk, each also .gz, and any other that `convert` reads); several files are "
+          "numbered one after the other; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command
@@ -324,16 +323,15 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->transform(or_standard_output)
       ->option_text("FILE");
   command
-      ->add_option(
-          "--size", arguments->size,
-          "Field points: no edge inside much longer than this; in a region whose large triangles or thin "
-          "walls leave too few elements, a smaller size is taken, half of it at least")
+      ->add_option("--size", arguments->size,
+                   "Field points: no edge inside much longer than this; in a region whose large triangles or "
+                   "thin walls leave too few elements, a smaller size is used, at least half of it")
       ->option_text("H");
   command
-      ->add_option(
-          "--gradation", arguments->gradation,
-          "Field points: growth of sizes a unit of length, away from the surface (default 0.3, up to 0.5 on "
-          "surfaces full of needles, where points that help little go again unless this is given)")
+      ->add_option("--gradation", arguments->gradation,
+                   "Field points: growth of sizes per unit of length, away from the surface (default 0.3, up "
+                   "to 0.5 on surfaces full of needles; unless this is given, points that help little there "
+                   "are removed again)")
       ->option_text("G");
   command
       ->add_option(
@@ -343,7 +341,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   add_bounds(*command, arguments->bounds);
   command->add_flag("--no-growth", arguments->no_growth,
-                    "Field points: inside, sizes stay between those of the surface round");
+                    "Field points: sizes inside stay between those of the surrounding surface");
   command
       ->add_option("--quality", arguments->quality,
                    "Effort spent on the elements with field points: fast, good (default) or best")
@@ -353,12 +351,13 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "Regions to keep: auto (default), bounded, winding, box or box=MARGIN (of the largest "
                    "extent, default 0.1)")
       ->option_text("RULE");
-  command->add_option("--hole", arguments->holes, "Leave the region that holds this point empty (repeatable)")
+  command
+      ->add_option("--hole", arguments->holes, "Leave the region that contains this point empty (repeatable)")
       ->allow_extra_args(false)
       ->option_text("x,y,z");
   command
       ->add_option("--region", arguments->regions,
-                   "Number the region that holds this point, and limit its size (repeatable)")
+                   "Number the region that contains this point, and limit its size (repeatable)")
       ->allow_extra_args(false)
       ->option_text("x,y,z,ID[,H]");
   add_name_option(*command, arguments->names);
@@ -383,10 +382,9 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option_function<std::vector<std::string>>(
           "--order", [arguments](const std::vector<std::string>& words) { take_orders(*arguments, words); },
-          "Two things, by the word; give it twice for both. 1 (default) or 2: order of the elements, 2 with "
+          "Two settings; give the option twice to set both. 1 (default) or 2: order of the elements, 2 with "
           "mid-edge nodes. random (default), given or halving: the order in which missing constraints are "
-          "cut "
-          "in, where halving takes the middle one, then those in the middle of both halves")
+          "cut in, where halving takes the middle one, then those in the middle of both halves")
       ->allow_extra_args(false)
       ->option_text("1|2|random|given|halving");
   add_seed(*command, arguments->seed);
@@ -402,7 +400,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->option_text("FILE.json");
   command
       ->add_option("--exact", arguments->exact,
-                   "Where no positive mesh in doubles is found (exit 7), write the exact one as JSON lines")
+                   "If no positive mesh in doubles is found (exit 7), write the exact one as JSON lines")
       ->transform(or_standard_output)
       ->option_text("FILE");
   command
@@ -424,7 +422,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   CLI::Option* quiet =
       command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
-  command->add_flag("-v,--verbose", arguments->verbose, "Tell every stage")->excludes(quiet);
+  command->add_flag("-v,--verbose", arguments->verbose, "Report every stage")->excludes(quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

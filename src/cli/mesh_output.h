@@ -13,13 +13,12 @@ namespace holdfast::cli {
 
 /// The help of --each-region.
 inline constexpr const char* each_region_help =
-    "Write a file for each region, NAME_REGION with its name or region_ID, where a format of surfaces has "
-    "the "
-    "closed surface of the region, seen from outside";
+    "Write a file for each region, NAME_REGION with its name or region_ID; a surface format gets the "
+    "region's closed surface, facing outwards";
 
 /// The help of --no-interfaces.
 inline constexpr const char* no_interfaces_help =
-    "Leave out triangles with tetrahedra on both sides, as deal.II wants it";
+    "Leave out triangles with tetrahedra on both sides, as deal.II requires";
 
 /// The user's arguments.
 struct OutputArguments {

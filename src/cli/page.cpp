@@ -8,7 +8,8 @@ namespace holdfast::cli {
 
 void add_html_option(CLI::App& command, std::filesystem::path& page) {
   command
-      .add_option("--html", page, "Write a page that shows all this in a browser, one file without a network")
+      .add_option("--html", page,
+                  "Write a page that shows the result in a browser, one file that needs no network")
       ->transform(or_standard_output)
       ->option_text("FILE.html");
 }

@@ -230,20 +230,19 @@ int run(const PasteArguments& arguments) {
 void add_paste(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<PasteArguments>();
   CLI::App* command = app.add_subcommand(
-      "paste", "Make one conformal surface of parts that touch: common faces are there once, cut alike");
+      "paste",
+      "Make one conformal surface of parts that touch: common faces occur once, with the same triangles");
   command
-      ->add_option(
-          "SURFACE", arguments->surfaces,
-          "Surface files, one a part, as for `mesh`, or one whose components are the parts; indices count "
-          "through them in turn")
+      ->add_option("SURFACE", arguments->surfaces,
+                   "Surface files, one per part, as for `mesh`, or one whose components are the parts; they "
+                   "are numbered one after the other")
       ->transform(or_standard_input)
       ->required();
   add_surface_output(*command, *arguments);
   command
       ->add_option("--tolerance", arguments->tolerance,
-                   "Put what is nearer to an earlier file than this on it (the first file stays); so near to "
-                   "its plane a "
-                   "polygon of a file must lie, too")
+                   "Put vertices that are nearer than this to an earlier file on it (the first file stays); "
+                   "also the limit for the distance of a polygon's corners from its plane")
       ->option_text("T");
   add_overlap_option(*command, arguments->overlap);
   add_account(*command, *arguments);

@@ -14,7 +14,8 @@ void add_paste_option(CLI::App& command, std::optional<std::string>& tolerance) 
   const auto text = std::make_shared<std::string>();
   command
       .add_flag("--paste", *text,
-                "Several files: make those that touch fit together, what is nearer to another than T, too")
+                "Several files: make those that touch fit together; with T, also what is nearer than T to "
+                "another file")
       ->option_text("[=T]");
   command.parse_complete_callback([text, &tolerance, &command] {
     if (command.count("--paste") > 0) tolerance = *text == "true" ? "" : *text;
@@ -24,8 +25,8 @@ void add_paste_option(CLI::App& command, std::optional<std::string>& tolerance) 
 void add_overlap_option(CLI::App& command, std::optional<std::string>& overlap) {
   command
       .add_option("--overlap", overlap,
-                  "What several files hold goes to the first of them, the last, or a new region; else files "
-                  "that overlap are refused (exit 4)")
+                  "Space in several files goes to the first of them, the last, or a new region; by default "
+                  "files that overlap are refused (exit 4)")
       ->option_text("first|last|new");
 }
 

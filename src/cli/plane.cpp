@@ -219,20 +219,21 @@ int run(const PlaneArguments& arguments) {
 void add_method(CLI::App& command, PlaneArguments& arguments) {
   command
       .add_option("--method", arguments.method,
-                  "How segments come into the mesh: ears, swaps (default) or partition")
+                  "How segments are recovered: ears, swaps (default) or partition")
       ->option_text("METHOD");
   command
       .add_option("--ears", arguments.ears,
                   "Which corner ears takes: first (default), best (of triangles), or join (those inside)")
       ->option_text("CHOICE");
   command.add_flag("--partition-first", arguments.partition_first,
-                   "Partition: remove points only when all segments stand (paper 2.3), not one by one");
+                   "Partition: remove points only when all segments exist (paper 2.3), not one by one");
   command.add_flag("--delaunay", arguments.delaunay, "Then swap edges until it is constrained Delaunay");
   command.add_option("--size", arguments.size, "Add points until no edge is longer (with --angle 20)")
       ->option_text("H");
   command
-      .add_option("--angle", arguments.angle,
-                  "Add points until no angle is smaller, in degrees (up to 34; proven to end up to 26.45)")
+      .add_option(
+          "--angle", arguments.angle,
+          "Add points until no angle is smaller, in degrees (up to 34; proven to terminate up to 26.45)")
       ->option_text("A");
   command.add_flag("--keep-boundary", arguments.keep_boundary, "Add points only inside, none on segments");
   command.add_option("--max-points", arguments.max_points, "Most points to add (default 10000000)")
@@ -247,8 +248,7 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
   command
       .add_option("--order", arguments.order,
                   "Which missing segment is laid next: given, as in the file, random, or halving: the middle "
-                  "one, then "
-                  "those in the middle of both halves (default: one near the last)")
+                  "one, then those in the middle of both halves (default: one near the previous one)")
       ->option_text("ORDER");
   add_seed(command, arguments.seed);
 }
@@ -258,7 +258,7 @@ void add_method(CLI::App& command, PlaneArguments& arguments) {
 void add_plane(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<PlaneArguments>();
   CLI::App* command = app.add_subcommand(
-      "plane", "Triangles in the plane that keep every segment; without added points, or refined");
+      "plane", "Triangulate the plane and keep every segment; without added points, or refined");
   command
       ->add_option(
           "FILE", arguments->input,

@@ -172,22 +172,23 @@ int run(const RepairArguments& arguments) {
 void add_repair(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<RepairArguments>();
   CLI::App* command = app.add_subcommand(
-      "repair", "Make a valid surface: what crosses, touches or overlaps is cut, and nothing else changes");
+      "repair",
+      "Make a surface valid: triangles are cut where they cross, touch or overlap, and nothing else changes");
   command
       ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files, as for `mesh`; indices count through several in turn")
+                   "Surface files, as for `mesh`; several files are numbered one after the other")
       ->transform(or_standard_input)
       ->required();
   add_surface_output(*command, *arguments);
   command
       ->add_option("--weld", arguments->weld,
-                   "First make one of vertices that are this near to each other, and put vertices that are "
-                   "this near to a side or facet on it (default 0)")
+                   "First merge vertices that are this near to each other, and put vertices that are this "
+                   "near to a side or facet on it (default 0)")
       ->option_text("T");
   command
       ->add_option("--join", arguments->join,
-                   "Triangles that overlap at most T from each other, some last bits, become the same where "
-                   "they do (default 0)")
+                   "Triangles that overlap within T of each other, a few last bits, become the same where "
+                   "they overlap (default 0)")
       ->option_text("T");
   add_repair_ways(*command, arguments->ways);
   add_account(*command, *arguments);

@@ -206,14 +206,14 @@ void add_split(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<SplitArguments>();
   MeshArguments& mesh = arguments->mesh;
   CLI::App* command =
-      app.add_subcommand("split", "Cut a surface into closed parts that are meshed apart, and fit");
+      app.add_subcommand("split", "Cut a surface into closed parts that are meshed separately and fit");
   command->add_option("SURFACE", mesh.surfaces, "Surface files, as for `mesh`")
       ->transform(or_standard_input)
       ->required();
   command->add_option("-o,--output", arguments->folder, "Folder for the parts and manifest.json")
       ->required()
       ->option_text("DIR");
-  command->add_option("--parts", arguments->parts, "How many parts, of about equal work")
+  command->add_option("--parts", arguments->parts, "Number of parts, of about equal work")
       ->check(not_a_count)
       ->required()
       ->option_text("N");
@@ -221,12 +221,12 @@ void add_split(CLI::App& app, Command& chosen) {
       ->option_text("H");
   command->add_option("--keep", mesh.keep, "Regions to keep: auto (default), bounded or winding")
       ->option_text("RULE");
-  command->add_option("--hole", mesh.holes, "Leave the region that holds this point empty (repeatable)")
+  command->add_option("--hole", mesh.holes, "Leave the region that contains this point empty (repeatable)")
       ->allow_extra_args(false)
       ->option_text("x,y,z");
   command
       ->add_option("--region", mesh.regions,
-                   "Number the region that holds this point, and limit its size (repeatable)")
+                   "Number the region that contains this point, and limit its size (repeatable)")
       ->allow_extra_args(false)
       ->option_text("x,y,z,ID[,H]");
   add_name_option(*command, mesh.names);

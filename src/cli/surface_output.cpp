@@ -22,7 +22,7 @@ void add_account(CLI::App& command, SurfaceOutput& output) {
                   "Write a line for each triangle with the indices of those it is a part of")
       ->transform(or_standard_output)
       ->option_text("FILE");
-  command.add_option("--report", output.report, "Write all that changed as JSON")
+  command.add_option("--report", output.report, "Write all changes as JSON")
       ->transform(or_standard_output)
       ->option_text("FILE.json");
 }

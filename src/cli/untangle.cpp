@@ -171,7 +171,7 @@ int run(const UntangleArguments& arguments) {
 void add_untangle(CLI::App& app, Command& chosen) {
   const auto arguments = std::make_shared<UntangleArguments>();
   CLI::App* command = app.add_subcommand(
-      "untangle", "Make every tetrahedron of a tangled volume positive, with its boundary as it is");
+      "untangle", "Make every tetrahedron of a tangled volume positive and keep its boundary");
   command
       ->add_option(
           "VOLUME", arguments->input,
@@ -193,7 +193,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
                         "Only move vertices and swap tetrahedra: neither add nor remove vertices");
   command
       ->add_flag("--improve", arguments->improve,
-                 "Then make elements better, with the boundary as it is; adds and removes inner vertices")
+                 "Then improve elements and keep the boundary; adds and removes inner vertices")
       ->excludes(no_refill);
   add_seed(*command, arguments->seed);
   command->add_option("--time-limit", arguments->time_limit, "Give up after this many seconds (exit 5)")
@@ -215,7 +215,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   CLI::Option* quiet =
       command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
-  command->add_flag("-v,--verbose", arguments->verbose, "Tell every step")->excludes(quiet);
+  command->add_flag("-v,--verbose", arguments->verbose, "Report every step")->excludes(quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

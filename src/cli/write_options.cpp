@@ -33,7 +33,7 @@ void add_write_options(CLI::App& command, WriteArguments& arguments) {
   command.add_flag(
       "--one-file", arguments.one_file,
       ".vtu, .xdmf: write triangles and segments into the same file, not into NAME_surface beside it");
-  command.add_flag("--gzip", arguments.gzip, "OpenFOAM: pack the files");
+  command.add_flag("--gzip", arguments.gzip, "OpenFOAM: compress the files");
   command.add_flag("--shells", arguments.shells, ".inp: write triangles as shell elements, too");
 }
 
