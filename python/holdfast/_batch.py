@@ -330,9 +330,11 @@ def arguments_of(options: dict[str, Any]) -> list[str]:
             if callable(value) or (hasattr(value, "__len__") and not isinstance(value, str)):
                 raise TypeError(f"batch: {name} must be a number or a path, as it holds for every file")
             found += [option, str(value)]
-    if (keep := left.pop("keep", None)) is not None:
-        margin = left.pop("box_margin", None)
-        found += ["--keep", f"{keep}={margin}" if keep == "box" and margin is not None else str(keep)]
+    keep, margin = left.pop("keep", None), left.pop("box_margin", None)
+    if margin is not None and keep != "box":
+        raise ValueError('batch: box_margin does nothing without keep="box"')
+    if keep is not None:
+        found += ["--keep", str(keep) if margin is None else f"{keep}={margin}"]
     for name, option in (("holes", "--hole"), ("regions", "--region")):
         for values in left.pop(name, ()):
             found += [option, ",".join(_number(v) for v in values)]

@@ -39,7 +39,7 @@ def mesh(
     fill: bool = False,
     quality: str = "good",
     keep: str = "auto",
-    box_margin: float = 0.1,
+    box_margin: Optional[float] = None,
     holes: typing.Iterable[typing.Sequence[float]] = (),
     regions: typing.Iterable[typing.Sequence[float]] = (),
     drop_outside: bool = False,
@@ -102,7 +102,7 @@ def mesh(
         Effort for the elements with field points: "fast", "good" or "best".
     keep
         "auto" (by winding number if the surface is consistently oriented, otherwise every bounded region), "bounded",
-        "winding" or "box" (everything up to a box, `box_margin` of the largest extent away).
+        "winding" or "box" (everything up to a box, `box_margin` of the largest extent away: 0.1 unless given).
     holes
         (x, y, z) of points in regions to leave empty.
     regions
@@ -172,6 +172,8 @@ def mesh(
         repair = bool(repair)
     if repair is False and (most_sides(fill_holes) or union):
         raise ValueError("fill_holes and union do nothing without repair: the surface is meshed as it is")
+    if box_margin is not None and keep != "box":
+        raise ValueError(f'box_margin does nothing with keep={keep!r}: it is for keep="box"')
     options["threads"] = threads_of(threads)
     what, pasted = given(
         surface, triangles, {"segments": segments, "triangle_markers": triangle_markers, "segment_markers": segment_markers},
@@ -188,7 +190,7 @@ def mesh(
         growth=bool(growth),
         quality=quality,
         keep=keep,
-        box_margin=float(box_margin),
+        box_margin=0.1 if box_margin is None else _positive(box_margin, "box_margin"),
         holes=[_numbers(h, 3, "a hole") for h in _listed(holes, "holes")] + [list(map(float, h)) for h in what.holes],
         regions=_bounded([_region(r) for r in [*_listed(regions, "regions"), *what.regions]], max_volume),
         max_volume=_most_volume(max_volume),

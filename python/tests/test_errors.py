@@ -75,7 +75,7 @@ def test_arrays_that_are_none(points, triangles, error):
     "options",
     [
         {"size": -1.0}, {"size": 0}, {"size": np.nan}, {"size": [1, 2]}, {"gradation": 2.0}, {"order": "last"}, {"quality": "great"},
-        {"keep": "all"}, {"box_margin": -1.0, "keep": "box"}, {"holes": [(0, 0)]}, {"holes": [(9, 9, 9)]},
+        {"keep": "all"}, {"box_margin": -1.0, "keep": "box"}, {"box_margin": 0.5}, {"holes": [(0, 0)]}, {"holes": [(9, 9, 9)]},
         {"regions": [(0.5, 0.5, 0.5)]}, {"regions": [(0.5, 0.5, 0.5, 1.5)]}, {"regions": [(0.4, 0.4, 0.4, 1), (0.6, 0.6, 0.6, 2)]},
         {"time_limit": -1}, {"time_limit": np.nan}, {"memory_limit": 0}, {"memory_limit": "much"}, {"without": ["all"]},
         {"fill": True, "size": 1.0}, {"triangle_markers": [1, 2]}, {"segment_markers": [1]},

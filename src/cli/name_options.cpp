@@ -25,7 +25,7 @@ constexpr Kind kinds[] = {
     {"vertex:", &Names::vertices, &Nameable::vertices, "vertex"},
 };
 
-[[noreturn]] void refuse(const std::string& argument, const char* why) {
+[[noreturn]] void refuse(const std::string& argument, const std::string& why) {
   throw UsageError("--name " + argument + ": " + why);
 }
 
@@ -100,7 +100,9 @@ Names names_of(const std::vector<std::string>& arguments) {
   Names names;
   for (const std::string& argument : arguments) {
     Naming naming = naming_of(argument);
-    (names.*naming.kind->names)[naming.id] = std::move(naming.name);
+    const auto [given, fresh] = (names.*naming.kind->names).try_emplace(naming.id, naming.name);
+    if (!fresh && given->second != naming.name)
+      refuse(argument, fmt::format("it has the name '{}' by another --name", given->second));
   }
   return names;
 }

@@ -27,10 +27,18 @@ std::vector<plane::PolygonFacet> facets_of(MeshData& mesh) {
 }
 
 PlanesInSpace planes_of(const Source& source, MeshData&& mesh) {
-  plane::FoundPlanes found =
-      plane::planes_of(mesh.vertices, facets_of(mesh), source.tolerance, poll_of(source.watch));
-  if (!found.reason.empty())
-    throw FileError(source.path, "polygon " + std::to_string(found.facet + 1), found.reason);
+  const std::size_t segments = mesh.segments.size();
+  const std::vector<plane::PolygonFacet> facets = facets_of(mesh);
+  plane::FoundPlanes found = plane::planes_of(mesh.vertices, facets, source.tolerance, poll_of(source.watch));
+  if (!found.reason.empty()) {
+    const std::size_t polygons = facets.size() - segments;
+    std::string where;  // the file as a whole, where it has no polygons
+    if (found.facet < polygons)
+      where = "polygon " + std::to_string(found.facet + 1);
+    else if (polygons > 0)
+      where = "segment " + std::to_string(found.facet - polygons + 1);
+    throw FileError(source.path, where, found.reason);
+  }
   PlanesInSpace planes = std::move(found.planes);
   planes.points = std::move(mesh.vertices);
   planes.remarks = std::move(mesh.remarks);

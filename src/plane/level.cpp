@@ -84,6 +84,20 @@ bool Level::exactly_flat() const {
   return true;
 }
 
+namespace {
+
+/// Of the plane through the first point, the furthest from it, and the furthest from these two.
+Point normal_of_widest(const std::vector<Point>& points) {
+  Point side{}, normal{};
+  for (const Point& p : points)
+    if (length(p - points[0]) > length(side)) side = p - points[0];
+  for (const Point& p : points)
+    if (const Point n = cross(side, p - points[0]); length(n) > length(normal)) normal = n;
+  return normal;
+}
+
+}  // namespace
+
 void Level::measure(const Sides& sides) {
   double most = 0;
   for (Vertex v = 0; v < places_.size(); ++v)
@@ -114,7 +128,7 @@ void Level::measure(const Sides& sides) {
     for (std::size_t k = 0; k < 3; ++k) normal_[k] += area[k];
   }
   // Without sides, or with a total area of 0 as a figure eight has, there is no mean plane: use three places.
-  if (!(length(normal_) > 0)) normal_ = cross(local[1] - local[0], local[third_] - local[0]);
+  if (!(length(normal_) > 0)) normal_ = normal_of_widest(local);
   const double norm = length(normal_);
   double furthest = 0;
   for (const Point& p : local) furthest = std::max(furthest, std::abs(dot(normal_, p - middle)));

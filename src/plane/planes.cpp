@@ -1,5 +1,6 @@
 // Polygons and facets in space as points and segments in planes.
 #include <algorithm>
+#include <utility>
 
 #include "plane/facets.h"
 #include "plane/level.h"
@@ -7,6 +8,8 @@
 
 namespace holdfast::plane {
 namespace {
+
+Ends ordered(Vertex a, Vertex b) { return {std::min(a, b), std::max(a, b)}; }
 
 class Planes {
  public:
@@ -19,17 +22,45 @@ class Planes {
       all.polygons.insert(all.polygons.end(), facet.polygons.begin(), facet.polygons.end());
       all.holes.insert(all.holes.end(), facet.holes.begin(), facet.holes.end());
     }
-    if (add(all, facets_.size() == 1) || facets_.size() == 1) return std::move(found_);
-    found_.reason.clear();
+    const bool alone = facets_.size() == 1 || std::none_of(facets_.begin(), facets_.end(), has_area);
+    if (add(all, alone) || alone) return std::move(found_);
+    const std::string why_not_one = std::exchange(found_.reason, {});
+    const Sides sides = sides_of_polygons();
     for (found_.facet = 0; found_.facet < facets_.size(); ++found_.facet) {
       if (poll && found_.facet % 256 == 0)
         poll(static_cast<double>(found_.facet) / static_cast<double>(facets_.size()));
-      if (!add(facets_[found_.facet], true)) break;
+      const PolygonFacet& facet = facets_[found_.facet];
+      if (has_area(facet) ? !add(facet, true) : !stands_in(facet, sides)) break;
     }
+    if (found_.reason.empty() && found_.facet < facets_.size())
+      found_.reason = "it is no side of a polygon, and not all is in one plane (" + why_not_one +
+                      "): only polygons are filled then, each in its own plane; leave it out";
     return std::move(found_);
   }
 
  private:
+  /// Rather than segments or points alone, each by itself.
+  static bool has_area(const PolygonFacet& facet) {
+    return facet.polygons.size() > 1 || (facet.polygons.size() == 1 && facet.polygons[0].size() > 2);
+  }
+  /// The sides of all facets with an area, by vertices, sorted.
+  [[nodiscard]] Sides sides_of_polygons() const {
+    Sides sides;
+    for (const PolygonFacet& facet : facets_)
+      if (has_area(facet))
+        for (const std::vector<Index>& polygon : facet.polygons)
+          for (std::size_t i = 0; i < polygon.size(); ++i)
+            sides.push_back(ordered(polygon[i], polygon[(i + 1) % polygon.size()]));
+    std::sort(sides.begin(), sides.end());
+    return sides;
+  }
+  /// Whether a single segment or point adds nothing to the polygons.
+  static bool stands_in(const PolygonFacet& facet, const Sides& sides) {
+    if (facet.polygons.empty()) return true;
+    const std::vector<Index>& ends = facet.polygons[0];
+    return ends.size() == 2 && std::binary_search(sides.begin(), sides.end(), ordered(ends[0], ends[1]));
+  }
+
   /// Adds the plane of a facet; returns false, with the reason, if it has none. A facet that is `alone` may
   /// have been rounded in its file; with several facets, this allowance would merge planes that are close to
   /// each other.
@@ -71,7 +102,7 @@ class Planes {
     Sides edges;
     for (const std::vector<Index>& polygon : facet.polygons)
       for (const auto& [a, b] : sides_of(walk_of(polygon, places)))
-        if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
+        if (a != b) edges.push_back(ordered(a, b));
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;

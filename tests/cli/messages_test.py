@@ -212,6 +212,12 @@ class LongLists(CliTest):
                                 "--name", "3=between", "--name", "4=none").stderr
         self.assertEqual((said.count("does nothing"), said.count("region:3=c"), said.count("4=none")), (2, 1, 1))
 
+    def test_two_names_of_one_marker(self):
+        for command in (("mesh", "cube.off", "-o", "v.vtu", "--fill"), ("convert", "cube.off", "w.obj")):
+            said = self.run_program(*command, "--name", "0=a", "--name", "facet:0=b", expect=2).stderr
+            self.assertIn("--name facet:0=b: it has the name 'a' by another --name", said)
+            self.run_program(*command, "--name", "0=a", "--name", "0=a", "--name", "region:0=b")
+
 
 if __name__ == "__main__":
     main()

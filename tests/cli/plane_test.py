@@ -254,6 +254,32 @@ class InSpace(CliTest):
         self.assertEqual(json.loads((self.folder / "r.json").read_text())["mesh"]["regions"], 2)
         self.assertEqual(len(read_off(self.folder / "out.off")[1]), 5 - 2 + 2 * 3)
 
+    def obj(self, points, polygons, segments):
+        lines = ["v %r %r %r" % tuple(p) for p in points] + [" ".join(["f", *map(str, f)]) for f in polygons]
+        self.write("in.obj", "\n".join(lines + ["l %d %d" % s for s in segments]) + "\n")
+
+    def test_segments_round_an_outline(self):
+        ring = [(math.cos(2 * math.pi * i / 60), math.sin(2 * math.pi * i / 60)) for i in range(60)]
+        sides = [(i + 1, (i + 1) % 60 + 1) for i in range(60)]
+        for points in ([(x, y, 5.0) for x, y in ring], [(round(x, 6), round(y, 6), round(x - 0.3 * y + 1, 6)) for x, y in ring]):
+            self.obj(points, [], sides)  # the second in a plane but for rounding to six digits
+            self.run_program("plane", "in.obj", "-o", "out.off")
+            back, triangles = read_off(self.folder / "out.off")
+            self.assertEqual((back, len(triangles)), (points, 58))
+
+    def test_segments_that_lie_in_no_plane(self):
+        points = [(x, y, z) for z in (0.0, 1.0) for x, y in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))]
+        polygons = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5)]
+        self.obj(points, polygons, [(1, 2), (6, 2)])  # sides of polygons stand by themselves
+        self.run_program("plane", "in.obj", "-o", "out.off")
+        self.assertEqual(len(read_off(self.folder / "out.off")[1]), 6)
+        self.obj(points, polygons, [(1, 2), (3, 7)])
+        said = self.run_program("plane", "in.obj", "-o", "out.off", expect=3).stderr
+        self.assertIn("in.obj: segment 2: it is no side of a polygon, and not all is in one plane", said)
+        self.obj(points, [], [(1, 2), (3, 7), (5, 8)])
+        said = self.run_program("plane", "in.obj", "-o", "out.off", expect=3).stderr
+        self.assertIn("in.obj: it lies in no plane: its corners are up to", said)
+
     def test_faces_of_a_solid_are_planes_of_their_own(self):
         bottom = [(u, v, 0.0) for u, v in self.CORNERS]
         top = [(u, v, 1.0) for u, v in self.CORNERS]
