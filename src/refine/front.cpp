@@ -255,12 +255,25 @@ class Front {
       height = std::min(height, over);
     } else {
       for (std::size_t k = 0; k < 3; ++k) foot[k] = (u[k] + w[k]) / 3;
+      height = std::max(height, std::min(0.75 * grown_over(f), top / 2));
       if (has_thin_wall_over(f, top, height)) height = top / 2;
       if (top < height) return false;
     }
     for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + foot[k] + height * n[k] / area;
     p = frame.from(p);
     return true;
+  }
+
+  // Over a face much larger than sizes that are given at its corners: these have grown as far as its middle.
+  // A point as near as its corners ask for would be too near for the size wanted there.
+  [[nodiscard]] double grown_over(Face f) const {
+    if (!sizes_.is_given_at_vertices() || !sizes_.grows() || volume_.metrics != nullptr) return 0;
+    const auto corners = mesh_.face_vertices(f);
+    const Point middle = middle_of(corners);
+    double size = kInfinity;
+    for (const Vertex v : corners)
+      size = std::min(size, volume_.sizes[v] + sizes_.gradation() * distance(mesh_.position(v), middle));
+    return bearable_at(middle, volume_.region_of[tet_of(f)], size);
   }
 
   // Sizes at vertices may have been raised already, but the sizes of a user's function have not.

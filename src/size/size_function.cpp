@@ -104,6 +104,7 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
                            const SegmentTable& table, const Kept& kept, int scale, const Threads& threads)
     : gradation_(sizes.gradation.value_or(tuning::kGradation)),
       grows_(sizes.grow),
+      is_given_at_vertices_(!sizes.vertex_sizes.empty()),
       scale_(scale),
       of_region_(kept.region.size(), sizes.size > 0 ? std::ldexp(sizes.size, scale) : kNoLimit),
       field_(sizes.field),

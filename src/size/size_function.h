@@ -84,6 +84,8 @@ class SizeFunction {
   [[nodiscard]] FacetSizes::By decider(double size, RegionId region) const {
     return field_ || !(size < of_region_[region]) ? FacetSizes::By::user : FacetSizes::By::surface;
   }
+  /// Whether the user gave sizes at vertices of the surface, which may be far below its triangles.
+  [[nodiscard]] bool is_given_at_vertices() const { return is_given_at_vertices_; }
   /// Inside, sizes do not grow beyond those of the surface round it.
   [[nodiscard]] bool grows() const { return grows_; }
 
@@ -96,7 +98,7 @@ class SizeFunction {
   [[nodiscard]] double field_at(const Point& p) const;
 
   double gradation_, steepness_ = 0;
-  bool grows_;
+  bool grows_, is_given_at_vertices_;
   int scale_;
   std::vector<double> of_region_;
   std::vector<double> factor_of_region_;  // that of_region_ is multiplied by already; none if by nothing

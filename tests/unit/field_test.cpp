@@ -329,6 +329,16 @@ TEST(FieldPoints, LimitsAndCancelAreHeard) {
   EXPECT_EQ(mesh(sphere.view(), options).outcome, Outcome::cancelled);
 }
 
+TEST(FieldPoints, SizesAtVerticesFarBelowTheTriangles) {
+  const Surface box = small::box();
+  std::size_t before = 0;
+  for (const double size : {0.2, 0.1, 0.05, 0.03, 0.02, 0.01, 0.001}) {
+    const Result result = mesh_with(box, {.vertex_sizes = std::vector<double>(8, size)});
+    EXPECT_GT(result.volume.tetrahedra.size(), before) << size;
+    before = result.volume.tetrahedra.size();
+  }
+}
+
 TEST(FieldPoints, OptionsWithoutSenseAreRefused) {
   const Surface box = small::box();
   Options options;
