@@ -35,8 +35,14 @@ class ObjReader {
       if (!text.at_line_end() && !has_weight_of_one(text)) ++coloured_;
     });
     each_line([&](std::string_view keyword, TextReader& text) { read_element(keyword, text); });
+    if (free_forms_ > 0 && mesh_.facets.empty())
+      TextReader(source_).fail_at(
+          first_free_form_,
+          "free-form curves and surfaces are not read, and there are no faces besides; export them as "
+          "triangles");
     mark_facets();
     tell_looks();
+    mesh_.leave_out(free_forms_, "free-form curves and surfaces", "free-form curve or surface");
     return std::move(mesh_);
   }
 
@@ -96,7 +102,7 @@ class ObjReader {
     } else if (keyword == "p") {
       read_corners(text);  // isolated points are vertices already; this only checks the indices
     } else if (keyword == "curv" || keyword == "surf") {
-      text.fail("free-form curves and surfaces are not read; export them as triangles");
+      if (free_forms_++ == 0) first_free_form_ = text.last();
     } else if (const auto looks = std::find(std::begin(kLooks), std::end(kLooks), keyword);
                looks != std::end(kLooks)) {
       ++looks_[static_cast<std::size_t>(looks - std::begin(kLooks))];
@@ -175,6 +181,7 @@ class ObjReader {
   MeshData mesh_;
   std::size_t coloured_ = 0;  ///< vertices with colours or weights
   std::size_t seen_ = 0;      ///< vertices before the current line
+  std::size_t free_forms_ = 0, first_free_form_ = 0;
   std::vector<Index> corners_;
   std::array<std::size_t, std::size(kLooks)> looks_{};  ///< lines of each
 

@@ -2,7 +2,11 @@
 //
 // A "face" of two corners is a segment and one of a single corner an isolated vertex, as in the surfaces of
 // Holdfast's corpus. What follows the coordinates or corners (normals, colours, texture coordinates) is
-// skipped.
+// skipped. Each line has one vertex or face; a file for which this is not true is read as numbers on any
+// lines, with nothing after the corners.
+#include <exception>
+#include <optional>
+
 #include "io/byte_reader.h"
 #include "io/formats.h"
 #include "io/polygon.h"
@@ -80,21 +84,44 @@ class OffReader {
   MeshData read() {
     mesh_.leave_out(skip_appearance(text_) ? 1 : 0, "appearances", "appearance");
     const Header header = read_header(text_);
-    header.binary ? read_bytes(header) : read_text();
+    header.binary ? read_bytes(header) : read_text(header);
     mesh_.leave_out(decorated_, "vertices' and faces' normals, colours or texture coordinates",
                     "vertex's or face's normal, colour or texture coordinates");
     return std::move(mesh_);
   }
 
  private:
-  void read_text() {
+  void read_text(const Header& header) {
+    const std::size_t start = text_.position();
+    const MeshData before = mesh_;
+    try {
+      read_numbers();
+    } catch (const FileError&) {
+      const std::exception_ptr error = std::current_exception();
+      text_.seek(start);
+      mesh_ = before;
+      decorated_ = 0;
+      behind_vertex_ = header.floats_behind;
+      try {
+        read_numbers();
+      } catch (const FileError&) {
+        std::rethrow_exception(error);
+      }
+    }
+  }
+
+  void read_numbers() {
     const std::size_t vertices = text_.count("the number of vertices", 6);
     const std::size_t faces = text_.count("the number of faces", 2);
-    text_.skip_line();  // the number of edges, which is unreliable
+    // The number of edges is unreliable.
+    if (!behind_vertex_)
+      text_.skip_line();
+    else if (!text_.at_line_end())
+      static_cast<void>(text_.integer("the number of edges"));
     mesh_.vertices.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
       mesh_.vertices.push_back(text_.point());
-      end_line();
+      end_line(behind_vertex_.value_or(0));
     }
     mesh_.facets.reserve(faces);
     for (std::size_t i = 0; i < faces; ++i) {
@@ -102,7 +129,7 @@ class OffReader {
       const std::size_t start = text_.last();
       for (Index& corner : corners_) corner = text_.index("a vertex index", 0, mesh_.vertices.size());
       add_polygon(mesh_, corners_, 0, [&](const std::string& reason) { text_.fail_at(start, reason); });
-      end_line();
+      end_line(0);
     }
     if (!text_.at_end()) {
       text_.seek(text_.position());
@@ -110,7 +137,12 @@ class OffReader {
     }
   }
 
-  void end_line() {
+  void end_line(std::size_t numbers_behind) {
+    if (behind_vertex_) {
+      decorated_ += numbers_behind > 0 ? 1 : 0;
+      for (; numbers_behind > 0; --numbers_behind) static_cast<void>(text_.real("a number behind a vertex"));
+      return;
+    }
     decorated_ += text_.at_line_end() ? 0 : 1;
     text_.skip_line();
   }
@@ -159,6 +191,7 @@ class OffReader {
   MeshData mesh_;
   std::vector<Index> corners_;
   std::size_t decorated_ = 0;
+  std::optional<std::size_t> behind_vertex_;  ///< numbers behind a vertex, where lines do not tell their end
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 // elements, arrays of strings.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "io_samples.h"
 
 namespace holdfast {
@@ -20,6 +22,38 @@ class SurfaceVariants : public ::testing::Test {
   }
   TemporaryFolder folder_;
 };
+
+TEST_F(SurfaceVariants, NumbersOfOffOnAnyLines) {
+  const std::string tetrahedron = "0 0 0 1 0 0 0 1 0 0 0 1", faces = "3 0 2 1 3 0 1 3 3 1 2 3 3 2 0 3";
+  const Surface whole = surface("OFF 4 4 6 " + tetrahedron + " " + faces, "a.off");
+  EXPECT_EQ(whole.vertices.size(), 4u);
+  EXPECT_EQ(whole.facets, (std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}));
+  EXPECT_EQ(surface("OFF\n4 4 0\n" + tetrahedron + "\n" + faces + "\n", "a.off").facets, whole.facets);
+  EXPECT_EQ(surface("OFF\n4 4\n" + tetrahedron + "\n3 0 2 1\n3 0 1 3 3 1 2 3\n3 2 0 3", "a.off").facets,
+            whole.facets);
+  const Surface normals =
+      surface("NOFF 3 1 0 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 3 0 1 2", "a.off");  // of three vertices
+  EXPECT_EQ(normals.vertices[2], (Point{0, 1, 0}));
+  EXPECT_EQ(normals.remarks.size(), 1u);
+  // Where neither fits, the message is that of lines.
+  EXPECT_EQ(error("OFF 4 4 6 " + tetrahedron + " " + faces + " 0", "a.off"),
+            error("OFF 4 4 6 " + tetrahedron + " " + faces + " 0 1", "a.off"));
+  EXPECT_EQ(error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "a.off").substr(0, 7), "line 6:");
+}
+
+TEST_F(SurfaceVariants, FreeFormsOfObj) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
+                    curve = "cstype bezier\ncurv 0 1 1 2 \\\n 3\nend\n";
+  const Surface face = surface(points + curve + "f 1 2 3\nsurf 0 1 0 1 1 2 3\n", "a.obj");
+  EXPECT_EQ(face.facets.size(), 1u);
+  EXPECT_TRUE(std::any_of(face.remarks.begin(), face.remarks.end(), [](const Remark& remark) {
+    return remark.message == "2 free-form curves and surfaces are left out";
+  }));
+  EXPECT_EQ(
+      error(points + curve, "a.obj"),
+      "line 5: free-form curves and surfaces are not read, and there are no faces besides; export them as "
+      "triangles");
+}
 
 TEST_F(SurfaceVariants, OffThatTellsItsDimensions) {
   const std::string behind = "\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
