@@ -15,18 +15,22 @@ namespace holdfast {
 /// A file that cannot be read or written: what, where in it, and why.
 class HOLDFAST_API FileError : public std::runtime_error {
  public:
-  FileError(std::filesystem::path path, std::string where, const std::string& reason)
+  FileError(std::filesystem::path path, std::string where, const std::string& reason, int error_number = 0)
       : std::runtime_error(path.string() + (where.empty() ? "" : ": " + where) + ": " + reason),
         path_(std::move(path)),
-        where_(std::move(where)) {}
+        where_(std::move(where)),
+        error_number_(error_number) {}
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Place in the file: "line 12", "byte 84", "cell 3", in JSON "/meshes/0/name", or empty if the error
   /// concerns the whole file.
   [[nodiscard]] const std::string& where() const { return where_; }
+  /// The system's number of the error (`errno`), or 0 if the system let the file be read or written.
+  [[nodiscard]] int error_number() const { return error_number_; }
 
  private:
   std::filesystem::path path_;
   std::string where_;
+  int error_number_;
 };
 
 /// The open descriptor of this process that a path names directly, without following links: "/dev/stdin",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass
 from typing import Any, Optional
 
@@ -88,15 +89,19 @@ class InternalError(HoldfastError, RuntimeError):
 
 
 class FileError(HoldfastError, OSError):
-    """A file cannot be read or written. `filename` and `where` ("line 12") say which and where in it."""
+    """A file cannot be read or written. `filename` and `where` ("line 12") say which and where in it; `errno` is the system's
+    number where the system refused it (`errno.ENOENT`), else None."""
 
-    def __init__(self, message: str, filename: str = "", where: str = "") -> None:
+    def __init__(self, message: str, filename: str = "", where: str = "", errno: int = 0) -> None:
         HoldfastError.__init__(self, message)
         self.filename = filename
         self.where = where
+        if errno:
+            self.errno = errno
+            self.strerror = os.strerror(errno)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (type(self), (*self.args, self.filename, self.where))
+        return (type(self), (*self.args, self.filename, self.where, self.errno or 0))
 
     def __str__(self) -> str:
         return str(self.args[0])

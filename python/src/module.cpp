@@ -21,7 +21,8 @@ void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const FileError& error) {
-    raise(error_class("FileError")(message_of(error.what()), file_name_of(error.path()), error.where()));
+    raise(error_class("FileError")(message_of(error.what()), file_name_of(error.path()), error.where(),
+                                   error.error_number()));
   } catch (const Interrupted& interrupted) {
     raise(py::module_::import("holdfast.errors")
               .attr("_interrupted")(static_cast<int>(interrupted.outcome()), interrupted.what()));

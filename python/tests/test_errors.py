@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import pickle
 import signal
@@ -109,10 +110,15 @@ def test_files_that_are_not_there(tmp_path):
     with pytest.raises(holdfast.FileError) as caught:
         holdfast.mesh(tmp_path / "none.stl")
     assert isinstance(caught.value, OSError) and caught.value.filename.endswith("none.stl")
+    assert caught.value.errno == errno.ENOENT and caught.value.strerror == os.strerror(errno.ENOENT)
+    assert pickle.loads(pickle.dumps(caught.value)).errno == errno.ENOENT
+    with pytest.raises(holdfast.FileError) as caught:
+        holdfast.mesh(*box(), fill=True).write(tmp_path / "none" / "a.vtu")
+    assert caught.value.errno == errno.ENOENT
     (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 zero\n")
     with pytest.raises(holdfast.FileError) as caught:
         holdfast.read_surface(tmp_path / "bad.off")
-    assert caught.value.where == "line 4" and "line 4" in str(caught.value)
+    assert caught.value.errno is None and caught.value.where == "line 4" and "line 4" in str(caught.value)
     assert isinstance(pickle.loads(pickle.dumps(caught.value)), holdfast.FileError)
     with pytest.raises(holdfast.FileError):
         holdfast.read_volume(tmp_path / "none.vtu")

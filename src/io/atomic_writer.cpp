@@ -225,7 +225,7 @@ void AtomicWriter::commit() {
 }
 
 void AtomicWriter::fail(const char* what, int error) const {
-  throw FileError(target_, "", std::string(what) + ": " + std::strerror(error));
+  throw FileError(target_, "", std::string(what) + ": " + std::strerror(error), error);
 }
 
 }  // namespace holdfast::io

@@ -50,13 +50,14 @@ std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax
 
 /// Refuses what cannot hold a mesh. A terminal is accepted; other devices have no end.
 void require_readable(const std::filesystem::path& path, const struct stat& status, bool is_terminal) {
-  if (S_ISDIR(status.st_mode)) throw FileError(path, "", "is a directory, not a file");
+  if (S_ISDIR(status.st_mode)) throw FileError(path, "", "is a directory, not a file", EISDIR);
   if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && !is_terminal))
     throw FileError(path, "", "is a device, not a file");
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, const char* what) {
-  throw FileError(path, "", std::string(what) + ": " + std::strerror(errno));
+  const int error = errno;
+  throw FileError(path, "", std::string(what) + ": " + std::strerror(error), error);
 }
 
 /// Opens a file, or an open descriptor at its position. A named pipe may have no writer yet, for which
@@ -70,7 +71,7 @@ Descriptor open(const std::filesystem::path& path) {
     number = copy_of_descriptor(*descriptor);
   } else {
     if (::stat(path.c_str(), &status) != 0) {
-      if (errno == ENOENT) throw FileError(path, "", "no such file");
+      if (errno == ENOENT) throw FileError(path, "", "no such file", ENOENT);
       fail(path, "cannot be opened");
     }
     require_readable(path, status, false);
