@@ -113,7 +113,7 @@ def test_files_that_are_not_there(tmp_path):
     assert caught.value.errno == errno.ENOENT and caught.value.strerror == os.strerror(errno.ENOENT)
     assert pickle.loads(pickle.dumps(caught.value)).errno == errno.ENOENT
     with pytest.raises(holdfast.FileError) as caught:
-        holdfast.mesh(*box(), fill=True).write(tmp_path / "none" / "a.vtu")
+        holdfast.mesh(*box(), fill=True).save(tmp_path / "none" / "a.vtu")
     assert caught.value.errno == errno.ENOENT
     (tmp_path / "bad.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 zero\n")
     with pytest.raises(holdfast.FileError) as caught:

@@ -64,7 +64,8 @@ AtomicWriter::AtomicWriter(std::filesystem::path target, Watch* watch)
   }
   const auto type = std::filesystem::status(written_, error).type();
   using std::filesystem::file_type;
-  if (type == file_type::directory) throw FileError(target_, "", "cannot be written: it is a directory");
+  if (type == file_type::directory)
+    throw FileError(target_, "", "cannot be written: it is a directory", EISDIR);
   if (type == file_type::regular || type == file_type::not_found || type == file_type::none) {
     open_temporary();
   } else {
@@ -115,7 +116,7 @@ void AtomicWriter::create_named() {
   if (file_ >= 0) return;
   const int error = errno;
   temporary_.clear();
-  if (error == ENOENT) throw FileError(target_, "", "cannot be written: its folder does not exist");
+  if (error == ENOENT) throw FileError(target_, "", "cannot be written: its folder does not exist", error);
   fail("cannot be written: no file can be made in its folder", error);
 }
 
