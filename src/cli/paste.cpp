@@ -77,7 +77,9 @@ int conclude(const PasteArguments& arguments, const PasteResult& result,
       return exit_done;
     case Outcome::invalid_input:
       say("holdfast: {}; nothing was written\n", result.message);
-      if (!result.overlaps.empty()) say("{}\n", advice);
+      if (!result.overlaps.empty())
+        say("{}{}\n", advice,
+            arguments.tolerance ? "" : "; --tolerance T brings together what is nearer than T");
       return exit_invalid_surface;
     case Outcome::time_limit:
     case Outcome::memory_limit:

@@ -188,6 +188,16 @@ class PasteTest(CliTest):
         self.assertRegex(ended.stderr, r"a\.off and b\.off overlap by 1\b")
         self.assertFalse((self.folder / "out.mesh").exists())
 
+    def test_small_overlap_names_the_tolerance(self):
+        names = self.parts(box((0, 0, 0), (1, 1, 1), (1, 1, 1)), box((1 - 1e-6, 0.2, 0.2), (2, 0.6, 0.9), (1, 1, 1)))
+        for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste", expect=4),
+                      self.run_program("paste", *names, "-o", "x.mesh", expect=4)):
+            self.assertRegex(ended.stderr, r"a\.off and b\.off overlap by 1e-06 at")
+            self.assertIn("T brings together what is nearer than T", ended.stderr)
+        ended = self.run_program("paste", *names, "-o", "x.mesh", "--tolerance", "1e-9", expect=4)
+        self.assertNotIn("T brings", ended.stderr)
+        self.mesh(names, "--paste=1e-5")
+
     def test_overlap_goes_where_it_is_sent(self):
         names = self.parts(*self.overlapping())
         for option, expected in (("first", {1: 3, 2: 3}), ("last", {1: 2, 2: 4}), ("new", {1: 2, 2: 3, 3: 1})):
