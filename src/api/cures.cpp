@@ -43,6 +43,14 @@ std::size_t count_of(const DefectSummary& summary, Cause cause) {
   return 0;
 }
 
+/// Which gaps a surface still has.
+struct GapsLeft {
+  bool narrow = false;    ///< some gap is no wider than the given ones
+  bool at_given = false;  ///< a vertex of a given gap still has one
+
+  [[nodiscard]] bool none() const { return !narrow && !at_given; }
+};
+
 class Proposal {
  public:
   Proposal(const Complex& complex, std::span<const Defect> defects, const DefectSummary& summary,
@@ -109,21 +117,21 @@ class Proposal {
     constexpr int kAttempts = 10;  // lengths of up to ten times the width
     double tolerance = one_digit_above(widest * (1 + 0x1p-19)), fair_tolerance = 0;
     for (int i = 0; i < kAttempts; ++i, tolerance = one_digit_above(tolerance)) {
-      const auto [narrow, wide] = gaps_welded(tolerance, widest);
-      if (!narrow && fair_tolerance == 0) fair_tolerance = tolerance;
-      if (narrow || wide) continue;
+      const GapsLeft left = gaps_welded(tolerance, widest);
+      if (!left.narrow && fair_tolerance == 0) fair_tolerance = tolerance;
+      if (!left.none()) continue;
       RepairResult result = attempt(tolerance);
-      if (!cures_.tried || gaps_left(result.surface.view(), widest) == std::pair(false, false))
+      if (!cures_.tried || gaps_left(result.surface.view(), widest).none())
         return propose_weld(widest, tolerance, std::move(result));
     }
     if (fair_tolerance == 0) return {};
     RepairResult fair = attempt(fair_tolerance);
-    if (cures_.tried && gaps_left(fair.surface.view(), widest).first) return {};
+    if (cures_.tried && gaps_left(fair.surface.view(), widest).narrow) return {};
     return propose_weld(widest, fair_tolerance, std::move(fair));
   }
 
   /// Like `gaps_left`, after welding alone.
-  std::pair<bool, bool> gaps_welded(double tolerance, double widest) {
+  GapsLeft gaps_welded(double tolerance, double widest) {
     repairing::State state = repairing::state_of(complex_);
     const std::size_t trial = trials_++;
     repairing::weld(state, tolerance, [&](double fraction) { monitor_.poll(share(trial, fraction)); });
@@ -135,8 +143,7 @@ class Proposal {
     return result;
   }
 
-  /// Whether some gap is no wider than the given ones, and whether a vertex of a given gap still has one.
-  std::pair<bool, bool> gaps_left(const Complex& surface, double widest) const {
+  GapsLeft gaps_left(const Complex& surface, double widest) const {
     const DefectSummary after = summarise(surface, {});
     const auto is_narrow = [&](const Gap& gap) { return gap.distance <= widest; };
     std::vector<Index> vertices;
