@@ -41,15 +41,18 @@ struct Division {
 
 /// The box is larger than everything else, so the leftmost vertex is one of its corners.
 int outside_of(const Volume& volume) {
+  const auto least = [&](const Tetrahedron& tetrahedron) {
+    double x = volume.vertices[tetrahedron[0]][0];
+    for (const Index v : tetrahedron) x = std::min(x, volume.vertices[v][0]);
+    return x;
+  };
   std::size_t best = 0;
-  for (std::size_t t = 0; t < volume.tetrahedra.size(); ++t) {
-    const auto least = [&](std::size_t i) {
-      double x = volume.vertices[volume.tetrahedra[i][0]][0];
-      for (const Index v : volume.tetrahedra[i]) x = std::min(x, volume.vertices[v][0]);
-      return x;
-    };
-    if (least(t) < least(best)) best = t;
-  }
+  double least_of_best = least(volume.tetrahedra[0]);
+  for (std::size_t t = 1; t < volume.tetrahedra.size(); ++t)
+    if (const double x = least(volume.tetrahedra[t]); x < least_of_best) {
+      best = t;
+      least_of_best = x;
+    }
   return volume.regions[best];
 }
 
