@@ -127,40 +127,56 @@ std::vector<std::int64_t> InpElements::read_copies(InpText& text) {
   std::vector<std::int64_t> all;
   if (const auto twice = nodes_.finish()) fail_twice(text.reader().source(), "node", *twice);
   for (; text.is_data(); text.next()) {
-    const std::vector<std::string_view> fields = text.fields();
-    const auto value = [&](std::size_t k) {
-      return k < fields.size() && !fields[k].empty()
-                 ? integer_of(text.reader(), fields[k], "a number of *ELGEN")
-                 : std::int64_t{1};
-    };
-    const auto step = [&](std::size_t k) { return text.increment(fields, k, "an increment of *ELGEN"); };
-    const std::int64_t first = text.number(fields[0], "an element's number");
-    const auto original = originals_.find(first);
-    if (original == originals_.end())
-      text.reader().fail("the element " + std::to_string(number_in_file(first)) +
-                         ", of which *ELGEN makes others, "
-                         "does not exist");
-    const Original element = original->second;
-    // Three times: a number of elements, with the increments of nodes and of elements.
-    const std::array<std::int64_t, 3> counts{value(1), value(4), value(7)};
-    for (const std::int64_t count : counts)
-      if (count < 1) text.reader().fail("a number of elements below 1");
-    copies_.count(text, counts[0]);
-    copies_.count(text, counts[0] * std::min<std::int64_t>(counts[1], 1 << 30));
-    copies_.count(text, counts[0] * counts[1] * std::min<std::int64_t>(counts[2], 1 << 30));
-    const std::array<std::int64_t, 3> node_steps{step(2), step(5), step(8)};
-    const std::array<std::int64_t, 3> steps{step(3), step(6), step(9)};
-    for (std::int64_t k = 0; k < counts[2]; ++k)
-      for (std::int64_t j = 0; j < counts[1]; ++j)
-        for (std::int64_t i = 0; i < counts[0]; ++i) {
-          const std::int64_t number = first + i * steps[0] + j * steps[1] + k * steps[2];
-          all.push_back(number);
-          if (i + j + k > 0)
-            add_by_numbers(text.reader(), text.place(), number, element,
-                           i * node_steps[0] + j * node_steps[1] + k * node_steps[2]);
-        }
+    const Copies copies = copies_of_line(text);
+    count(text, copies);
+    add_copies(text, copies, all);
   }
   return all;
+}
+
+InpElements::Copies InpElements::copies_of_line(const InpText& text) const {
+  const std::vector<std::string_view> fields = text.fields();
+  const auto value = [&](std::size_t k) {
+    return k < fields.size() && !fields[k].empty()
+               ? integer_of(text.reader(), fields[k], "a number of *ELGEN")
+               : std::int64_t{1};
+  };
+  const auto step = [&](std::size_t k) { return text.increment(fields, k, "an increment of *ELGEN"); };
+  Copies copies;
+  copies.first = text.number(fields[0], "an element's number");
+  const auto original = originals_.find(copies.first);
+  if (original == originals_.end())
+    text.reader().fail("the element " + std::to_string(number_in_file(copies.first)) +
+                       ", of which *ELGEN makes others, does not exist");
+  copies.original = &original->second;
+  copies.counts = {value(1), value(4), value(7)};
+  copies.node_steps = {step(2), step(5), step(8)};
+  copies.steps = {step(3), step(6), step(9)};
+  return copies;
+}
+
+void InpElements::count(const InpText& text, const Copies& copies) {
+  const auto& [in_row, rows, layers] = copies.counts;
+  if (std::min({in_row, rows, layers}) < 1) text.reader().fail("a number of elements below 1");
+  // Each product is counted before the next, so that none overflows.
+  constexpr std::int64_t kMost = 1 << 30;
+  made_.count(text, in_row);
+  made_.count(text, in_row * std::min(rows, kMost));
+  made_.count(text, in_row * rows * std::min(layers, kMost));
+}
+
+void InpElements::add_copies(const InpText& text, const Copies& copies, std::vector<std::int64_t>& numbers) {
+  const auto& [in_row, rows, layers] = copies.counts;
+  const auto offset = [](const std::array<std::int64_t, 3>& steps, std::int64_t i, std::int64_t j,
+                         std::int64_t k) { return i * steps[0] + j * steps[1] + k * steps[2]; };
+  for (std::int64_t k = 0; k < layers; ++k)
+    for (std::int64_t j = 0; j < rows; ++j)
+      for (std::int64_t i = 0; i < in_row; ++i) {
+        numbers.push_back(copies.first + offset(copies.steps, i, j, k));
+        if (i + j + k > 0)
+          add_by_numbers(text.reader(), text.place(), numbers.back(), *copies.original,
+                         offset(copies.node_steps, i, j, k));
+      }
 }
 
 // One element per line. Their numbers are kept, because sets may contain them.

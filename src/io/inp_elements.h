@@ -83,9 +83,20 @@ class InpElements {
   void add_by_numbers(const TextReader& text, std::size_t place, std::int64_t number,
                       const Original& original, std::int64_t step);
 
+  /// A line of *ELGEN: elements in a row, rows in a layer, and layers, in steps from an existing element.
+  struct Copies {
+    std::int64_t first = 0;  ///< the existing element, which is counted too
+    const Original* original = nullptr;
+    std::array<std::int64_t, 3> counts{}, node_steps{}, steps{};
+  };
+  [[nodiscard]] Copies copies_of_line(const InpText& text) const;
+  /// Throws for the line if a number is below 1 or there would be too many.
+  void count(const InpText& text, const Copies& copies);
+  void add_copies(const InpText& text, const Copies& copies, std::vector<std::int64_t>& numbers);
+
   MeshData& mesh_;
   const bool has_copies_;
-  InpMade copies_;
+  InpMade made_;
   std::map<std::int64_t, Original> originals_;  ///< by element number, if there are copies
   Numbered nodes_, numbers_;
   std::vector<InpElement> elements_;
