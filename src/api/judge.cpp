@@ -10,6 +10,7 @@
 
 #include "classify/keep.h"
 #include "holdfast/region_bounds.h"
+#include "holdfast/regular_tetrahedron.h"
 #include "numbers/finite.h"
 #include "surface/whereabouts.h"
 
@@ -22,7 +23,6 @@ void require(bool sensible, const char* otherwise) {
 }
 
 constexpr unsigned kMostLayers = 100;
-constexpr double kLeastRatio = 0.61237243569579452;  // sqrt(6) / 4
 
 // The same test serves for a volume.
 bool is_length_or_none(double x) { return x >= 0 && std::isfinite(x); }
@@ -31,7 +31,7 @@ void require_sensible_sizes(const Complex& complex, const Sizes& sizes) {
   require(is_length_or_none(sizes.size), "a size must be finite and not negative");
   require(is_length_or_none(sizes.max_volume), "a largest volume must be finite and not negative");
   require(
-      sizes.max_ratio == 0 || (sizes.max_ratio > kLeastRatio && std::isfinite(sizes.max_ratio)),
+      sizes.max_ratio == 0 || (sizes.max_ratio > regular_radius_ratio && std::isfinite(sizes.max_ratio)),
       "the largest ratio of radii to edges must be finite and above that of a regular tetrahedron, 0.6124");
   require(sizes.layers <= kMostLayers, "at most 100 layers can be asked for");
   require(!sizes.gradation || (*sizes.gradation >= 0 && *sizes.gradation <= 1),

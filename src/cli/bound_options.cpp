@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "holdfast/region_bounds.h"
+#include "holdfast/regular_tetrahedron.h"
 #include "number.h"
 #include "parts_of_mesh.h"
 #include "summary.h"
@@ -64,9 +65,9 @@ void add_bounds(CLI::App& command, BoundArguments& arguments) {
 }
 
 void require_bounds(const BoundArguments& arguments) {
-  constexpr double regular = 0.61237243569579452;  // sqrt(6) / 4
   for (const std::string& text : arguments.max_volumes) static_cast<void>(bound_of(text));
-  if (arguments.max_ratio && !(*arguments.max_ratio > regular && std::isfinite(*arguments.max_ratio)))
+  if (arguments.max_ratio &&
+      !(*arguments.max_ratio > regular_radius_ratio && std::isfinite(*arguments.max_ratio)))
     throw UsageError(
         fmt::format("--max-ratio {}: a number above 0.613 is expected; a regular tetrahedron has 0.6124",
                     *arguments.max_ratio));

@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "files.h"
+#include "holdfast/regular_tetrahedron.h"
 #include "holdfast/tetgen.h"
 #include "letters.h"
 
@@ -116,10 +117,9 @@ void read_sizes(const TetgenInput& input, const ReadOptions& options, Sizes& siz
 std::vector<RegionSeed> bounds_of_regions(std::vector<RegionSeed> seeds, bool bounded) {
   // The size is the rounded edge of the regular tetrahedron of that volume; slightly less keeps volumes below
   // the bound.
-  constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
   constexpr double kBelow = 1 - 1e-14;
   for (RegionSeed& seed : seeds) {
-    const double edge = seed.size / kEdgeOfVolumeOne;
+    const double edge = seed.size / regular_edge_of_volume_one;
     seed.max_volume = bounded ? edge * edge * edge * kBelow : 0;
     seed.size = 0;
   }

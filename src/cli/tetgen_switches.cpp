@@ -7,6 +7,7 @@
 #include <map>
 
 #include "command.h"
+#include "holdfast/regular_tetrahedron.h"
 #include "number.h"
 
 namespace holdfast::cli {
@@ -80,12 +81,12 @@ class Reader {
   }
 
   void take_quality(const std::string& number) {
-    constexpr double kRegular = 0.61237243569579452;  // sqrt(6) / 4
     to_.refine = true;
     const std::size_t slash = number.find('/');
     const std::string ratio = number.substr(0, slash);
     if (!ratio.empty()) to_.ratio = number_of(ratio, "a ratio of radius to edge");
-    if (!(to_.ratio > kRegular)) fail("a ratio above 0.613 is expected; a regular tetrahedron has 0.6124");
+    if (!(to_.ratio > regular_radius_ratio))
+      fail("a ratio above 0.613 is expected; a regular tetrahedron has 0.6124");
     if (slash == std::string::npos) return;
     const std::string angle = number.substr(slash + 1);
     if (!angle.empty()) to_.dihedral = number_of(angle, "a dihedral angle in degrees");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "holdfast/regular_tetrahedron.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/polygon.h"
@@ -159,10 +160,9 @@ class PolyReader {
 
   /// The edge of the regular tetrahedron with the largest volume allowed in a region; 0 for no limit.
   double read_size() {
-    constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
     const double volume = text_.real("a region's largest volume");
     if (!std::isfinite(volume)) text_.fail("a region's largest volume is not finite");
-    return volume > 0 ? kEdgeOfVolumeOne * cube_root(volume) : 0;
+    return volume > 0 ? regular_edge_of_volume_one * cube_root(volume) : 0;
   }
 
   TextReader text_;

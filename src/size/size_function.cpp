@@ -7,6 +7,7 @@
 #include <string>
 
 #include "holdfast/region_bounds.h"
+#include "holdfast/regular_tetrahedron.h"
 #include "numbers/elementary.h"
 #include "size/tuning.h"
 
@@ -19,8 +20,7 @@ constexpr std::size_t kFacetsALook = 1 << 16;  // some milliseconds
 // The edge of the regular tetrahedron with this volume. Elements of a field mesh vary in volume; most have
 // less than a regular one with edges of the wanted size.
 double size_of_volume(double volume) {
-  constexpr double kEdgeOfVolumeOne = 2.0396489026555056;  // (6 sqrt(2))^(1/3)
-  return volume < kNoLimit ? kEdgeOfVolumeOne * numbers::cbrt(volume) : kNoLimit;
+  return volume < kNoLimit ? regular_edge_of_volume_one * numbers::cbrt(volume) : kNoLimit;
 }
 
 Point times_power(const Point& p, int k) {
