@@ -14,10 +14,17 @@ const CancelToken& token() {
   return only;
 }
 
-void set_flag(int signal) {
+constexpr int kRequests[] = {SIGINT, SIGTERM, SIGHUP};
+
+void set_flag(int) {
   cancelled = 1;
   token().cancel();
-  std::signal(signal, SIG_DFL);
+  // From now on any of them ends the program, but those that are ignored.
+  for (const int signal : kRequests) {
+    struct sigaction present {};
+    if (sigaction(signal, nullptr, &present) == 0 && present.sa_handler == set_flag)
+      std::signal(signal, SIG_DFL);
+  }
 }
 
 }  // namespace
@@ -29,7 +36,7 @@ void fail_rather_than_die() {
 
 void cancel_by_flag() {
   token();
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : kRequests) {
     // The caller may have set signals to be ignored, as `nohup` does, and shells for background jobs.
     const auto before = std::signal(signal, set_flag);
     if (before == SIG_IGN) std::signal(signal, SIG_IGN);

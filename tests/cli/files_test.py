@@ -381,6 +381,30 @@ class Signals(CliTest):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 5)
 
+    def test_a_second_request_of_any_kind_ends_the_program_at_once(self):
+        # A full pipe that nobody reads: the program waits in the middle of its first message.
+        reading, full = os.pipe()
+        os.set_blocking(full, False)
+        with self.assertRaises(BlockingIOError):
+            while True:
+                os.write(full, b" " * 512)
+        os.set_blocking(full, True)
+        for first, second in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGHUP), (signal.SIGHUP, signal.SIGHUP)):
+            with self.subTest(f"{first.name}, {second.name}"):
+                process = subprocess.Popen([self.program, "mesh", "cube.off", "-o", "a.vtu", "-v"], cwd=self.folder, stderr=full)
+                time.sleep(0.3)
+                process.send_signal(first)
+                time.sleep(0.3)
+                self.assertIsNone(process.poll())
+                process.send_signal(second)
+                try:
+                    self.assertEqual(process.wait(10), -second)
+                finally:
+                    process.kill()
+                    process.wait()
+        os.close(reading)
+        os.close(full)
+
     def test_a_writer_that_is_hung_up_on_leaves_nothing(self):
         """A second request ends the program at once, also while it writes, and is told so here by a full pipe."""
         os.mkfifo(self.folder / "fifo")
