@@ -73,6 +73,28 @@ bool ignores_case(const fs::path& folder) {
   return found;
 }
 
+/// Why no file can be created in what is no folder: something on the way to it is a file, or it does not
+/// exist.
+std::string no_folder(const fs::path& folder) {
+  std::error_code ignored;
+  for (fs::path above = folder; !above.empty(); above = above.parent_path()) {
+    if (fs::exists(above, ignored) && !fs::is_directory(above, ignored))
+      return fmt::format("'{}' is a file, not a folder", above.string());
+    if (!above.has_relative_path()) break;
+  }
+  return fmt::format("there is no folder '{}'; create it first", folder.string());
+}
+
+/// Throws FileError for the path unless files can be created in the folder.
+void require_writable_folder(const fs::path& path, const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) throw FileError(path, "", no_folder(folder));
+  if (access(folder.c_str(), W_OK) != 0)
+    throw FileError(path, "",
+                    fmt::format("cannot write to folder '{}' ({}); choose another or change its permissions",
+                                folder.string(), std::strerror(errno)));
+}
+
 /// Throws FileError unless a file of this name can be created or written to.
 void require_writable(const fs::path& path) {
   const fs::path target = linked(path);
@@ -88,13 +110,7 @@ void require_writable(const fs::path& path) {
       throw FileError(path, "", fmt::format("cannot be written ({})", std::strerror(errno)));
     return;
   }
-  const fs::path folder = folder_of(target);
-  if (!fs::is_directory(folder, ignored))
-    throw FileError(path, "", fmt::format("there is no folder '{}'; create it first", folder.string()));
-  if (access(folder.c_str(), W_OK) != 0)
-    throw FileError(path, "",
-                    fmt::format("cannot write to folder '{}' ({}); choose another or change its permissions",
-                                folder.string(), std::strerror(errno)));
+  require_writable_folder(path, folder_of(target));
 }
 
 /// The same for a file whose folders are created when it is written.
@@ -104,7 +120,7 @@ void require_writable_with_folders(const fs::path& path) {
   if (fs::is_directory(folder, ignored)) return require_writable(path);
   while (!fs::exists(folder, ignored) && folder.has_parent_path()) folder = folder.parent_path();
   if (!fs::exists(folder, ignored)) folder = ".";
-  require_writable(folder / "polyMesh-would-be-here");
+  require_writable_folder(path, folder);
 }
 
 /// A name without an extension needs the option, because a pipe can be read only once and cannot be examined.

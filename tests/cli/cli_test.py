@@ -116,6 +116,15 @@ class Files(CliTest):
                                                   "nowhere/r.json", expect=3).stderr)
         self.assertNotIn("out.vtu", self.files())
 
+    def test_an_output_below_a_file_names_that_file(self):
+        self.write("taken", "")
+        for arguments in (("taken/out.vtu",), ("taken/deep/out.vtu",), ("taken", "--format", "openfoam"),
+                          ("taken/case", "--format", "openfoam")):
+            told = self.run_program("mesh", "missing.off", "-o", *arguments, expect=3).stderr
+            self.assertIn("'taken' is a file, not a folder", told)
+            self.assertNotIn("create it", told)
+        self.run_program("mesh", "cube.off", "-o", "new/case", "--format", "openfoam", "-q")
+
     def test_every_volume_format_is_written_and_checked(self):
         for name in ("a.vtu", "a.vtm", "a.vtk", "a.mesh", "a.msh", "a.inp", "a.unv", "a.vol", "a.mfem", "a.su2", "a.bdf", "a.node"):
             with self.subTest(name):
