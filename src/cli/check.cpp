@@ -9,6 +9,7 @@
 #include "check_folder.h"
 #include "check_repaired.h"
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
@@ -166,13 +167,9 @@ void add_check(CLI::App& app, Command& chosen) {
   command->add_option("--format", arguments->format, "Format of the last file, instead of by ending")
       ->option_text("FORMAT");
   add_tolerance(*command, arguments->tolerance);
-  command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
-      ->option_text("FORMAT");
-  command
-      ->add_option("--report", arguments->report,
-                   "Write the rules as JSON; with --repaired: read the report that `repair --report` wrote")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_input_format(*command, arguments->input_format, "Surface format");
+  add_report(*command, arguments->report,
+             "Write the rules as JSON; with --repaired: read the report that `repair --report` wrote");
   add_html_option(*command, arguments->html);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and failures");

@@ -37,10 +37,6 @@ void say(fmt::format_string<Values...> text, Values&&... values) {
   static_cast<void>(std::fwrite(said.data(), 1, said.size(), stderr));
 }
 
-/// The help of --threads.
-inline constexpr const char* threads_help =
-    "Threads, 0: all available (default 1); the result does not depend on them";
-
 /// The function that `main` runs after parsing the command line; returns the exit code.
 using Command = std::function<int()>;
 

@@ -8,6 +8,7 @@
 
 #include "any_mesh.h"
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "holdfast/surface_io.h"
@@ -162,14 +163,11 @@ void add_convert(CLI::App& app, Command& chosen) {
       ->add_option("--format", arguments->output.format,
                    "Format to write, instead of by ending; msh2 is .msh 2.2")
       ->option_text("FORMAT");
-  command->add_option("--input-format", arguments->input_format, "Format to read, instead of by ending")
-      ->option_text("FORMAT");
-  command->add_option("--threads", arguments->threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
+  add_input_format(*command, arguments->input_format, "Format to read");
+  add_threads(*command, arguments->threads);
   add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

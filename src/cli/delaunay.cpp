@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "command.h"
+#include "common_options.h"
 #include "files_of_run.h"
 #include "limits.h"
 #include "report.h"
@@ -118,29 +119,14 @@ void add_delaunay(CLI::App& app, Command& chosen) {
                    "Points: .xyz (three numbers per line), .node (TetGen), or the vertices of a surface file")
       ->transform(or_standard_input)
       ->required();
-  command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med .node, "
-          "or OpenFOAM's constant/polyMesh), -: standard output")
-      ->transform(or_standard_output)
-      ->required()
-      ->option_text("VOLUME");
+  add_volume_output(*command, arguments->output);
   add_seed(*command, arguments->seed, "Seed of the random order (default 1)");
-  command->add_option("--threads", arguments->threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
-  command->add_option("--report", arguments->report, "Write counts and times as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
-  command
-      ->add_option("--format", arguments->format,
-                   "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
-      ->option_text("FORMAT");
-  command->add_option("--input-format", arguments->input_format, "Format of the points, instead of by ending")
-      ->option_text("FORMAT");
+  add_threads(*command, arguments->threads);
+  add_report(*command, arguments->report, "Write counts and times as JSON");
+  add_volume_format(*command, arguments->format);
+  add_input_format(*command, arguments->input_format, "Format of the points");
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

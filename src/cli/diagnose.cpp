@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "command.h"
+#include "common_options.h"
 #include "cures.h"
 #include "defects.h"
 #include "files.h"
@@ -207,18 +208,13 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")
       ->transform(or_standard_output)
       ->option_text("FILE.vtu");
-  command->add_option("--report", arguments->report, "Write the defects as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_report(*command, arguments->report, "Write the defects as JSON");
   add_html_option(*command, arguments->html);
   command->add_flag("--all", arguments->all, "List every defect on a terminal, too, not only 100 of a kind");
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
   add_tolerance(*command, arguments->tolerance);
-  command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
-      ->option_text("FORMAT");
-  command->add_option("--threads", arguments->threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
+  add_input_format(*command, arguments->input_format, "Surface format");
+  add_threads(*command, arguments->threads);
   add_limits(*command, arguments->limits);
   command->add_flag("-q,--quiet", arguments->quiet, "Only the exit code and a closing line");
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

@@ -5,6 +5,7 @@
 
 #include "any_mesh.h"
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "holdfast/statistics.h"
@@ -142,9 +143,7 @@ void add_info(CLI::App& app, Command& chosen) {
       ->transform(or_standard_input)
       ->required();
   command->add_flag("--json", arguments->json, "Write it to standard output as JSON");
-  command->add_option("--report", arguments->report, "Write it as JSON to a file")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_report(*command, arguments->report, "Write it as JSON to a file");
   command->add_option("--input-format,--format", arguments->format, "Format, instead of by ending")
       ->option_text("FORMAT");
   add_tolerance(*command, arguments->tolerance);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "holdfast/partition.h"
@@ -142,7 +143,7 @@ void add_join(CLI::App& app, Command& chosen) {
   add_partition(*command, arguments->pieces);
   add_write_options(*command, arguments->writing);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

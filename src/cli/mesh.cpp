@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "command.h"
+#include "common_options.h"
 #include "defects.h"
 #include "exact_file.h"
 #include "files.h"
@@ -388,16 +389,12 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->allow_extra_args(false)
       ->option_text("1|2|random|given|halving");
   add_seed(*command, arguments->seed);
-  command->add_option("--threads", arguments->threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
+  add_threads(*command, arguments->threads);
   command->add_option("--time-limit", arguments->time_limit, "Give up after this many seconds (exit 5)")
       ->option_text("S");
   command->add_option("--memory-limit", arguments->memory_limit, "Give up above this much memory (exit 5)")
       ->option_text("GB");
-  command->add_option("--report", arguments->report, "Write counts, times and quality as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_report(*command, arguments->report, "Write counts, times and quality as JSON");
   command
       ->add_option("--exact", arguments->exact,
                    "If no positive mesh in doubles is found (exit 7), write the exact one as JSON lines")
@@ -409,19 +406,14 @@ void add_mesh(CLI::App& app, Command& chosen) {
                    "suppress or field_points")
       ->option_text("STAGE");
   add_html_option(*command, arguments->html);
-  command
-      ->add_option("--format", arguments->output.format,
-                   "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
-      ->option_text("FORMAT");
+  add_volume_format(*command, arguments->output.format);
   command->add_flag("--each-region", arguments->output.each_region, each_region_help);
   command->add_flag("--no-interfaces", arguments->output.no_interfaces, no_interfaces_help);
   add_tolerance(*command, arguments->tolerance);
   add_write_options(*command, arguments->output.writing);
   add_partition(*command, arguments->output.pieces);
-  command->add_option("--input-format", arguments->input_format, "Surface format, instead of by ending")
-      ->option_text("FORMAT");
-  CLI::Option* quiet =
-      command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_input_format(*command, arguments->input_format, "Surface format");
+  CLI::Option* quiet = add_quiet(*command, arguments->quiet);
   command->add_flag("-v,--verbose", arguments->verbose, "Report every stage")->excludes(quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

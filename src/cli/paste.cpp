@@ -10,6 +10,7 @@
 
 #include "any_mesh.h"
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "holdfast/surface_io.h"
@@ -250,13 +251,10 @@ void add_paste(CLI::App& app, Command& chosen) {
   add_account(*command, *arguments);
   add_name_option(*command, arguments->names);
   add_surface_format(*command, *arguments);
-  command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
-      ->option_text("FORMAT");
-  command->add_option("--threads", arguments->threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
+  add_input_format(*command, arguments->input_format, "Format of the input");
+  add_threads(*command, arguments->threads);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
@@ -272,16 +273,13 @@ void add_plane(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("FILE");
   add_method(*command, *arguments);
-  command->add_option("--report", arguments->report, "Write counts and times as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_report(*command, arguments->report, "Write counts and times as JSON");
   command->add_option("--format", arguments->format, "Format of the triangles, instead of by ending")
       ->option_text("FORMAT");
-  command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
-      ->option_text("FORMAT");
+  add_input_format(*command, arguments->input_format, "Format of the input");
   add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

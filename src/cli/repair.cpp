@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "holdfast/surface_io.h"
@@ -200,13 +201,10 @@ void add_repair(CLI::App& app, Command& chosen) {
   add_html_option(*command, arguments->html);
   add_surface_format(*command, *arguments);
   add_tolerance(*command, arguments->tolerance);
-  command->add_option("--input-format", arguments->input_format, "Format of the input, instead of by ending")
-      ->option_text("FORMAT");
-  command->add_option("--threads", arguments->threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
+  add_input_format(*command, arguments->input_format, "Format of the input");
+  add_threads(*command, arguments->threads);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

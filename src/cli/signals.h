@@ -9,8 +9,8 @@ namespace holdfast::cli {
 /// code, which otherwise would kill the program.
 void fail_rather_than_die();
 
-/// Makes SIGINT, SIGTERM and SIGHUP only set the flag that `cancel_requested` reads; a second one, of the same
-/// kind or another, ends the program at once.
+/// Makes SIGINT, SIGTERM and SIGHUP only set the flag that `cancel_requested` reads; a second one, of the
+/// same kind or another, ends the program at once.
 void cancel_by_flag();
 
 [[nodiscard]] bool cancel_requested();

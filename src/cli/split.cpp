@@ -5,6 +5,7 @@
 #include <set>
 
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "holdfast/surface_io.h"
@@ -233,14 +234,11 @@ void add_split(CLI::App& app, Command& chosen) {
   command->add_flag("--drop-outside", mesh.drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   add_seed(*command, mesh.seed);
-  command->add_option("--threads", mesh.threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
-  command->add_option("--input-format", mesh.input_format, "Surface format, instead of by ending")
-      ->option_text("FORMAT");
+  add_threads(*command, mesh.threads);
+  add_input_format(*command, mesh.input_format, "Surface format");
   add_tolerance(*command, mesh.tolerance);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", mesh.quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, mesh.quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -1,5 +1,6 @@
 #include "surface_output.h"
 
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "summary.h"
@@ -22,9 +23,7 @@ void add_account(CLI::App& command, SurfaceOutput& output) {
                   "Write a line for each triangle with the indices of those it is a part of")
       ->transform(or_standard_output)
       ->option_text("FILE");
-  command.add_option("--report", output.report, "Write all changes as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_report(command, output.report, "Write all changes as JSON");
 }
 
 void add_surface_format(CLI::App& command, SurfaceOutput& output) {

@@ -10,6 +10,7 @@
 
 #include "bound_options.h"
 #include "command.h"
+#include "common_options.h"
 #include "defects.h"
 #include "files.h"
 #include "files_of_run.h"
@@ -311,12 +312,8 @@ void add_tetgen(CLI::App& app, Command& chosen) {
   command->footer(
       "SWITCHES FILE come last: p Y q a A m i d c o2 n z e f g k J B N E F I C Q V, as TetGen has them\n"
       "(docs/tetgen.md); .poly .smesh .node .off .ply .stl .mesh .vtk and all other surfaces.");
-  command->add_option("--report", arguments->report, "Write counts, times and quality as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
-  command->add_option("--threads", arguments->threads, threads_help)
-      ->check(CLI::Range(0u, 4096u))
-      ->option_text("N");
+  add_report(*command, arguments->report, "Write counts, times and quality as JSON");
+  add_threads(*command, arguments->threads);
   add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
   command->callback([arguments, command, &chosen] {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
@@ -180,14 +181,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
           "or OpenFOAM's constant/polyMesh)")
       ->transform(or_standard_input)
       ->required();
-  command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med .node, "
-          "or OpenFOAM's constant/polyMesh), -: standard output")
-      ->transform(or_standard_output)
-      ->required()
-      ->option_text("VOLUME");
+  add_volume_output(*command, arguments->output);
   CLI::Option* no_refill =
       command->add_flag("--no-refill", arguments->no_refill,
                         "Only move vertices and swap tetrahedra: neither add nor remove vertices");
@@ -200,21 +194,12 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->option_text("S");
   command->add_option("--memory-limit", arguments->memory_limit, "Give up above this much memory (exit 5)")
       ->option_text("GB");
-  command->add_option("--report", arguments->report, "Write counts and times as JSON")
-      ->transform(or_standard_output)
-      ->option_text("FILE.json");
+  add_report(*command, arguments->report, "Write counts and times as JSON");
   add_html_option(*command, arguments->html);
-  command
-      ->add_option("--format", arguments->format,
-                   "Volume format, instead of by ending; msh2 is .msh 2.2, openfoam a case")
-      ->option_text("FORMAT");
+  add_volume_format(*command, arguments->format);
   add_write_options(*command, arguments->writing);
-  command
-      ->add_option("--input-format", arguments->input_format,
-                   "Format of the tangled volume, instead of by ending")
-      ->option_text("FORMAT");
-  CLI::Option* quiet =
-      command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_input_format(*command, arguments->input_format, "Format of the tangled volume");
+  CLI::Option* quiet = add_quiet(*command, arguments->quiet);
   command->add_flag("-v,--verbose", arguments->verbose, "Report every step")->excludes(quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

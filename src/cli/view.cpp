@@ -8,6 +8,7 @@
 
 #include "any_mesh.h"
 #include "command.h"
+#include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
@@ -100,11 +101,10 @@ void add_view(CLI::App& app, Command& chosen) {
                    "The page to write, -: standard output; without it a temporary one is opened in a browser")
       ->transform(or_standard_output)
       ->option_text("PAGE.html");
-  command->add_option("--input-format", arguments->input_format, "Format of the files, instead of by ending")
-      ->option_text("FORMAT");
+  add_input_format(*command, arguments->input_format, "Format of the files");
   add_tolerance(*command, arguments->tolerance);
   add_limits(*command, arguments->limits);
-  command->add_flag("-q,--quiet", arguments->quiet, "Say nothing unless something is wrong");
+  add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -1,6 +1,7 @@
 // Lines of fields between separators or in columns, for the readers of solvers' formats.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -28,6 +29,17 @@ namespace holdfast::io {
     if (end == std::string_view::npos) return fields;
     line.remove_prefix(end + 1);
   }
+}
+
+/// The words of a line without surrounding blanks.
+[[nodiscard]] inline std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    words.push_back(line.substr(0, end));
+    line = trimmed(line.substr(end));
+  }
+  return words;
 }
 
 /// A field as an integer. Errors name the line of `text` that was read last.

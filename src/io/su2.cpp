@@ -95,13 +95,7 @@ class Su2Reader {
 
   std::vector<std::string_view> fields() {
     if (!next()) text_.fail_truncated("a line of numbers");
-    std::vector<std::string_view> result;
-    for (std::string_view rest = line_; !rest.empty();) {
-      const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-      result.push_back(rest.substr(0, end));
-      rest = trimmed(rest.substr(end));
-    }
-    return result;
+    return words_of(line_);
   }
 
   void read_point() {

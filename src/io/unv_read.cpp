@@ -60,15 +60,7 @@ class UnvReader {
     return line_ != "-1";
   }
 
-  std::vector<std::string_view> words() const {
-    std::vector<std::string_view> result;
-    for (std::string_view rest = line_; !rest.empty();) {
-      const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-      result.push_back(rest.substr(0, end));
-      rest = trimmed(rest.substr(end));
-    }
-    return result;
-  }
+  std::vector<std::string_view> words() const { return words_of(line_); }
 
   void read_dataset(std::int64_t number) {
     switch (number) {
