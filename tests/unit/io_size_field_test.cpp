@@ -115,7 +115,7 @@ TEST_F(SizeFiles, OfAMeshAloneAreRefused) {
 }
 
 TEST_F(SizeFiles, OfAFlatMeshAreRefused) {
-  expect_refused({{"a.mesh", mesh("0")}, {"a.sol", sol("1", "1")}}, "", "has sizes nowhere");
+  expect_refused({{"a.mesh", mesh("0")}, {"a.sol", sol("1", "1")}}, "", "has no sizes anywhere");
 }
 
 TEST_F(SizeFiles, InTextAreRefusedWithTheLine) {
