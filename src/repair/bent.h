@@ -49,10 +49,10 @@ class BentSurface {
 
   /// `is_idle`: nothing near the facet can lead its sides, so they need not be examined because of it.
   void add(BentFacet facet, bool is_idle = false);
-  /// Takes out the facet with these corners. Returns whether there was one.
+  /// Whether a facet with these corners was taken out, and did not come back.
   [[nodiscard]] bool had(const Triangle& corners) const;
   void add(const BentSegment& segment, bool is_idle = false);
-  /// Takes out the segment of this origin. Returns whether there was one.
+  /// The same for a segment of this origin.
   [[nodiscard]] bool had(const Segment& ends, Index origin) const;
   /// Takes out what lives, for its parts to be added: it comes back, bent by some more.
   [[nodiscard]] BentFacet take(Index facet, double more);
@@ -62,7 +62,8 @@ class BentSurface {
   struct AtSide {
     std::vector<Index> facets, segments;
   };
-  /// The longest side not examined since an element last got it.
+  /// The longest side not examined since an element first got it. Sides that only idle elements have are left
+  /// out.
   [[nodiscard]] std::optional<Side> next_side();
   [[nodiscard]] const AtSide* at(const Side& side) const;
   /// When all that has it is taken out. Returns what had it.

@@ -26,6 +26,14 @@ struct Planes {
       size[f] = length(normal[f]);
     }
   }
+
+  /// The axes along which the facets are projected.
+  [[nodiscard]] std::vector<std::uint8_t> axes_of(std::span<const Index> facets) const {
+    std::vector<std::uint8_t> axes;
+    axes.reserve(facets.size());
+    for (const Index f : facets) axes.push_back(static_cast<std::uint8_t>(axis_of(normal[f])));
+    return axes;
+  }
 };
 
 /// Whether two facets share area in the projection along an axis. If not, a side of one of them separates it
@@ -145,10 +153,7 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   };
   DisjointSets sets(state.facets.size());
   std::set<Index> together;
-  std::vector<std::uint8_t> axis;
-  axis.reserve(facet.size());
-  for (const Index f : facet) axis.push_back(static_cast<std::uint8_t>(axis_of(planes.normal[f])));
-  const FlatFans fans(state, facet, axis);
+  const FlatFans fans(state, facet, planes.axes_of(facet));
   const AabbTree tree(boxes, fans.first());
   NodeGroups in_fans(tree, fans.of());
   tree.for_each_overlap(

@@ -9,7 +9,7 @@
 
 namespace holdfast::repairing {
 
-/// The fans of at least `kLeast` facets. A search for facets that overlap would otherwise compare all pairs
+/// The fans of a dozen facets or more. A search for facets that overlap would otherwise compare all pairs
 /// of a fan, because their boxes overlap at its vertex: a disc of n triangles has n * n / 2 of them.
 class FlatFans {
  public:

@@ -13,7 +13,7 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kMostVisits = 64;  // of pairs of sheets, an element
+constexpr std::size_t kMostVisits = 64;  // of pairs of sheets, per element
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double product(const Point& n, const Point& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; }
