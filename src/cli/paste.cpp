@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "any_mesh.h"
 #include "command.h"
@@ -58,15 +59,16 @@ Json options_of(const PasteArguments& arguments) {
           {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
 }
 
-/// The regions are those of a mesh of it.
-Nameable nameable_of_mesh(const PasteResult& result) {
-  Nameable ids = nameable_in(result.surface);
-  ids.regions_are_known = true;
+/// A surface has no place for the regions of its parts: a mesh of the file numbers them by the order of the
+/// triangles, so that names of several would come to other regions.
+std::size_t leave_out_region_names(PasteResult& result) {
+  std::set<int> ids;
   for (const PastedPart& part : result.parts) {
-    ids.regions.insert(part.id);
-    for (const RegionSeed& seed : part.seeds) ids.regions.insert(seed.id);
+    ids.insert(part.id);
+    for (const RegionSeed& seed : part.seeds) ids.insert(seed.id);
   }
-  return ids;
+  if (ids.size() < 2) return 0;
+  return std::exchange(result.surface.names.regions, {}).size();
 }
 
 /// Reports how the run ended and what the user can do; returns the exit code.
@@ -183,8 +185,15 @@ int paste_surfaces(const PasteArguments& arguments, const PasteOptions& options,
                                          : paste(parts, options, stems(arguments.surfaces));
   merge(result.surface.names, names_of(arguments.names));
   if (result.outcome == Outcome::done) {
+    const std::size_t left_out = leave_out_region_names(result);
     write_and_tell(arguments, result.surface, writing, arguments.quiet);
-    if (!arguments.quiet) tell_idle_names(arguments.names, nameable_of_mesh(result));
+    if (!arguments.quiet) {
+      if (left_out > 0)
+        say("holdfast: {} left out, since a mesh of {} numbers its regions anew; `mesh --paste` of the parts "
+            "keeps them\n",
+            counted(left_out, "name of a region is", "names of regions are"), arguments.output.string());
+      tell_idle_names(arguments.names, nameable_in(result.surface));
+    }
     std::size_t facets = 0;
     for (const Surface& part : parts) facets += part.facets.size();
     write_parents(arguments.parents, facets, result);

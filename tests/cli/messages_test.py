@@ -210,7 +210,7 @@ class LongLists(CliTest):
         self.write("next.off", off(cube((1, 0, 0)), CUBE_FACETS))
         said = self.run_program("paste", "cube.off", "next.off", "-o", "p.off", "--name", "region:2=b", "--name", "region:3=c",
                                 "--name", "3=between", "--name", "4=none").stderr
-        self.assertEqual((said.count("does nothing"), said.count("region:3=c"), said.count("4=none")), (2, 1, 1))
+        self.assertEqual((said.count("does nothing"), said.count("4=none")), (1, 1))
 
     def test_two_names_of_one_marker(self):
         for command in (("mesh", "cube.off", "-o", "v.vtu", "--fill"), ("convert", "cube.off", "w.obj")):

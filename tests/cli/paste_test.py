@@ -612,6 +612,18 @@ class PasteTest(CliTest):
         points, _, tets = read_mesh(self.folder / "ac.mesh")
         self.assertEqual({r: round(v, 12) for r, v in volumes(points, tets).items()}, {1: 1, 2: 1})
 
+    def test_names_of_regions_never_come_to_others(self):
+        """A mesh of the pasted file numbers regions by its triangles: c touches b, and d touches a."""
+        boxes = [box((0, 0, 0), (1, 1, 1), 2), box((1, 0, 0), (2, 1, 1), 2), box((2, 0, 0), (3, 1, 3), 2), box((0, 1, 0), (1, 2, 1), 2)]
+        names = self.parts(*boxes)
+        said = self.run_program("paste", *names, "-o", "all.vtu", "--name", "region:9=x").stderr
+        self.assertIn("5 names of regions are left out, since a mesh of all.vtu numbers its regions anew; `mesh --paste`", said)
+        self.run_program("mesh", "all.vtu", "-o", "v.vtu", "--fill", "--report", "r.json")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["names"]["regions"], {})
+        *_, report, _ = self.mesh(names, "--paste")
+        self.assertEqual(report["names"]["regions"], {"1": "a", "2": "b", "3": "c", "4": "d"})
+        self.assertNotIn("left out", self.run_program("paste", *names, "-o", "all.vtu", "-q").stderr)
+
     @staticmethod
     def is_on_interface(p):
         face = rotated(([(1, 0, 0), (1, 1, 0), (1, 0, 1)], []))[0]
