@@ -27,7 +27,7 @@ struct CheckArguments {
   double tolerance = 0;
   CheckOptions options;
   LimitArguments limits;
-  bool repaired = false, quiet = false;
+  bool repaired = false, surface_of = false, quiet = false;
 };
 
 std::string listing_of(const CheckResult& result) {
@@ -59,18 +59,21 @@ bool is_meant_as_folder(const std::filesystem::path& file) {
 }
 
 int run_on_folder(const CheckArguments& arguments, const CheckOptions& options) {
-  if (options.outside_dropped || options.box || !arguments.input_format.empty() ||
+  if (options.outside_dropped || options.box || arguments.surface_of || !arguments.input_format.empty() ||
       !arguments.format.empty() || !arguments.html.empty())
     throw UsageError(
-        "check: --outside-dropped, --box, --format, --input-format and --html do nothing for a folder, whose "
-        "manifest tells all that");
+        "check: --outside-dropped, --box, --surface-of, --format, --input-format and --html do nothing for a "
+        "folder, whose manifest tells all that");
   return check_folder({arguments.files[0], arguments.report, options, arguments.quiet});
 }
 
 int run_repaired(const CheckArguments& arguments) {
-  if (arguments.options.outside_dropped || arguments.options.box || !arguments.html.empty())
+  if (arguments.options.outside_dropped || arguments.options.box || arguments.surface_of ||
+      !arguments.html.empty())
     throw UsageError(
-        "check: --outside-dropped, --box and --html are about volumes, and --repaired is about a surface");
+        "check: --outside-dropped, --box, --surface-of and --html are about volumes, and --repaired is about "
+        "a "
+        "surface");
   RepairedFiles files;
   files.inputs.assign(arguments.files.begin(), arguments.files.end() - 1);
   files.output = arguments.files.back();
@@ -97,8 +100,8 @@ bool holds_but_outside(const Complex& surface, const Volume& volume, CheckOption
 int check_files(const CheckArguments& arguments, const CheckOptions& options,
                 const std::vector<std::filesystem::path>& surfaces, const FilesOfRun& files) {
   const std::filesystem::path& volume_path = arguments.files.back();
-  const Surface surface =
-      read_surfaces(surfaces, reading(options, arguments.input_format, arguments.tolerance));
+  const Surface surface = read_surfaces(
+      surfaces, reading(options, arguments.input_format, arguments.tolerance), arguments.surface_of);
   if (!arguments.quiet) tell(surface.remarks);
   const Volume volume = read_volume(volume_path, reading(options, arguments.format));
 
@@ -128,7 +131,7 @@ int run(const CheckArguments& arguments) {
         "or, with --repaired, surfaces and what `holdfast repair` made of them");
   const std::vector<std::filesystem::path> surfaces(arguments.files.begin(), arguments.files.end() - 1);
   FilesOfRun files;
-  files.read_surfaces(surfaces, arguments.input_format);
+  files.read_surfaces(surfaces, arguments.input_format, arguments.surface_of);
   files.read_volume(arguments.files.back(), arguments.format);
   files.write("--report", arguments.report);
   files.write("--html", arguments.html);
@@ -155,6 +158,8 @@ void add_check(CLI::App& app, Command& chosen) {
                     "Accept missing facets that lie outside every tetrahedron (mesh --drop-outside)");
   command->add_flag("--box", arguments->options.box,
                     "The mesh extends to an enclosing box (mesh --keep box)");
+  command->add_flag("--surface-of", arguments->surface_of,
+                    "SURFACE is a volume file, whose surface and interfaces were meshed (mesh --surface-of)");
   command->add_flag("--repaired", arguments->repaired,
                     "The last file is what `repair` made of the others, as --parents and --report claim");
   command

@@ -148,8 +148,13 @@ std::string format_of(const VolumeTarget& target) {
   return volume_format_of(target.path, target.options.format);
 }
 
-void FilesOfRun::read_surfaces(const std::vector<fs::path>& paths, std::string_view format) {
+void FilesOfRun::read_surfaces(const std::vector<fs::path>& paths, std::string_view format,
+                               bool of_volumes) {
   for (const fs::path& path : paths) {
+    if (of_volumes) {
+      read_volume(path, format);
+      continue;
+    }
     require_format(path, format);
     read("the input", files_of_surface(path, format));
   }

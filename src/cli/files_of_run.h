@@ -32,8 +32,10 @@ struct VolumeTarget {
 /// name. `option` is the user's term for a file ("-o", "the input"). An empty path names no file.
 class FilesOfRun {
  public:
-  /// Surfaces to read, with their companion files. All functions throw UsageError.
-  void read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format);
+  /// Surfaces to read, or volumes whose surfaces are taken, with their companion files. All functions throw
+  /// UsageError.
+  void read_surfaces(const std::vector<std::filesystem::path>& paths, std::string_view format,
+                     bool of_volumes = false);
   void read_points(const std::filesystem::path& path, std::string_view format);
   void read_volume(const std::filesystem::path& path, std::string_view format);
   /// Any other file.

@@ -139,10 +139,7 @@ struct Targets {
   WriteOptions repaired;
 };
 Targets note_files(const MeshArguments& arguments, const Options& options, FilesOfRun& files) {
-  if (arguments.surface_of)
-    for (const auto& volume : arguments.surfaces) files.read_volume(volume, arguments.input_format);
-  else
-    files.read_surfaces(arguments.surfaces, arguments.input_format);
+  files.read_surfaces(arguments.surfaces, arguments.input_format, arguments.surface_of);
   files.read_size_field("--size-field", arguments.size_field);
   take_order(arguments.elements, files);
   Targets targets{output_target(files, "-o", arguments.output), {}};

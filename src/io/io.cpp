@@ -133,6 +133,16 @@ std::string_view way_out_of(std::string_view extension) {
   return {};
 }
 
+/// What a file without a format is called in messages.
+std::string without_format(const std::filesystem::path& path, bool reads) {
+  std::error_code error;
+  if (!reads || !std::filesystem::is_directory(path, error)) return "a name without extension";
+  if (is_poly_mesh(path / "processor0"))
+    return "a case that is only decomposed (`reconstructParMesh -constant` makes its mesh, and each of "
+           "processor0, ... can be read)";
+  return "a folder without constant/polyMesh";
+}
+
 /// The entry of an extension for which `suits` is true; otherwise throws and lists those that would do.
 template <typename Suits>
 const Format& find_format(const std::filesystem::path& path, std::string_view extension, std::string_view use,
@@ -145,7 +155,7 @@ const Format& find_format(const std::filesystem::path& path, std::string_view ex
     known += (known.empty() ? "" : ", ") + std::string(format.extension);
   }
   const std::string name =
-      extension.empty() ? "a name without extension" : "the format " + in_quotes(extension);
+      extension.empty() ? without_format(path, reads) : "the format " + in_quotes(extension);
   throw FileError(path, "",
                   name + " cannot be " + std::string(use) +
                       (reads ? std::string(way_out_of(extension)) : "") + "; the formats are " + known);

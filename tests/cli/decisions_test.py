@@ -101,6 +101,10 @@ class Decisions(CliTest):
         said, report = self.mesh("v.vtu", "--fill", "--surface-of")
         self.assertEqual((report["input"]["vertices"], report["input"]["facets"]), (8, 12))
         self.assertNotIn("no triangle", said)
+        self.run_program("check", "v.vtu", "out.vtu", "--surface-of")
+        self.run_program("check", "v.vtu", "out.vtu", expect=6)  # inner vertices of v.vtu are missing
+        for arguments in (["v.vtu", "out.vtu", "--repaired"], ["."]):
+            self.assertIn("--surface-of", self.run_program("check", *arguments, "--surface-of", expect=2).stderr)
         self.assertNotIn("no triangle", self.mesh("cube.off")[0])
 
     def test_open_borders_are_named_where_there_are_some(self):

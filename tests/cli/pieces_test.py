@@ -63,6 +63,7 @@ class Pieces(CliTest):
         self.assertEqual({r["id"]: r["name"] for r in told["regions"]}, {10: None, 20: "core"})
         self.assertEqual(told["remarks"], [])
         self.run_program("mesh", "p.pvtu", "--surface-of", "-o", "again.vtu")
+        self.run_program("check", "p.pvtu", "--surface-of", "again.vtu")
         self.assertNotEqual(self.run_program("convert", "p.pvtu", "p_1.vtu", expect=2).stderr, "")  # what it reads
 
     def test_pieces_of_a_split_surface(self):
