@@ -3,7 +3,19 @@
 from __future__ import annotations
 
 import typing
-from typing import Optional, Union
+from typing import Any, NoReturn, Optional, Union
+
+
+class Fixed(dict[int, str]):
+    """Names of a mesh. It keeps its own, so that one that is put here would be in no file."""
+
+    def _refuse(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError("the names of a mesh cannot be changed: give others to save(path, names={...})")
+
+    __setitem__ = __delitem__ = __ior__ = update = setdefault = pop = popitem = clear = _refuse  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return dict, (dict(self),)
 
 
 class Names(typing.NamedTuple):

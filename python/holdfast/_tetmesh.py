@@ -17,10 +17,12 @@ from . import _core, _other_packages
 from ._convert import convert
 from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
-from ._names import Names, names_of
+from ._names import Fixed, Names, names_of
 from ._repair import Repair
 from ._shapes import Quality, frozen, quality_of, regions_beside
 from ._surface import Array, PathLike, Surface, _or_none, indices_of, markers_of, points_of, surface_of
+
+_ARRAYS = {"points", "tetrahedra", "regions", "triangles", "segments"}
 
 
 class TetMesh:
@@ -107,6 +109,13 @@ class TetMesh:
         self.segments = volume.segments
         self.n_input_points = n_input_points
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        """`save` would not write an array that took the place of one of these."""
+        if name in _ARRAYS and name in self.__dict__:
+            raise AttributeError(f"{name} of a mesh cannot be replaced: TetMesh(points, tetrahedra, ...) makes a mesh of "
+                                 "other arrays, and save(path, scale=...) scales")
+        super().__setattr__(name, value)
+
     @classmethod
     def _of(cls, volume: _core.Volume, n_input_points: Optional[int], result: Any = None) -> "TetMesh":
         mesh = cls.__new__(cls)
@@ -116,8 +125,8 @@ class TetMesh:
     @property
     def names(self) -> Names:
         """Names of triangle, segment and point markers and of regions, one dictionary each. They are written to files
-        that can hold them."""
-        return Names(*self._volume.names)
+        that can hold them; `save(path, names=...)` writes others."""
+        return Names(*map(Fixed, self._volume.names))
 
     @property
     def triangle_markers(self) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 import warnings
 
@@ -163,6 +164,22 @@ def test_views_are_read_only_and_outlive_the_mesh(cube):
     for name, array in arrays.items():
         assert np.array_equal(np.ma.filled(array, -7), np.ma.filled(copies[name], -7)), name
     del trash
+
+
+def test_what_save_would_not_write_cannot_be_set(cube, tmp_path):
+    mesh = holdfast.mesh(*cube)
+    for name in ("points", "tetrahedra", "regions", "triangles", "segments"):
+        with pytest.raises(AttributeError, match=f"{name} of a mesh cannot be replaced"):
+            setattr(mesh, name, 2 * getattr(mesh, name))
+    with pytest.raises(TypeError, match="names of a mesh cannot be changed"):
+        mesh.names.regions[1] = "core"
+    with pytest.raises(TypeError, match="names of a mesh cannot be changed"):
+        mesh.names.triangles.update({1: "skin"})
+    assert mesh.names == ({}, {}, {}, {}) and not mesh.names
+    mesh.save(tmp_path / "a.vtu", names={"regions": {1: "core"}})
+    named = holdfast.read_volume(tmp_path / "a.vtu")
+    assert named.names.regions == {1: "core"} == pickle.loads(pickle.dumps(named.names)).regions
+    assert copy.deepcopy(named).names == named.names and {**named.names.regions, 2: "shell"} == {1: "core", 2: "shell"}
 
 
 def test_pickle():
