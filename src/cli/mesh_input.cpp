@@ -62,6 +62,13 @@ void tell_defects_of_files(const MeshArguments& arguments, const MeshInput& inpu
   });
 }
 
+bool may_need_surface_of(const MeshArguments& arguments) {
+  return !arguments.surface_of && std::any_of(arguments.surfaces.begin(), arguments.surfaces.end(),
+                                              [&](const std::filesystem::path& path) {
+                                                return may_be_volume(path, arguments.input_format);
+                                              });
+}
+
 void split_by_angle(const MeshArguments& arguments, Surface& surface) {
   const std::size_t patches = markers_by_angle(surface, *arguments.markers_by_angle);
   if (patches == 0)
@@ -72,15 +79,12 @@ void split_by_angle(const MeshArguments& arguments, Surface& surface) {
 void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surface, ProgressView& progress) {
   const std::size_t lone = isolated_vertices(surface);
   if (lone == 0) return;
-  const bool from_volume = std::any_of(
-      arguments.surfaces.begin(), arguments.surfaces.end(),
-      [&](const std::filesystem::path& path) { return may_be_volume(path, arguments.input_format); });
   progress.finish();
   say("holdfast: {} in {} on no triangle and no segment {} as the mesh's, too{}\n",
       counted(lone, "vertex", "vertices"),
       arguments.surfaces.size() == 1 ? arguments.surfaces[0].string() : "the files",
       lone == 1 ? "is kept" : "are kept",
-      arguments.surface_of || !from_volume ? "" : "; --surface-of takes the surface of a volume alone");
+      may_need_surface_of(arguments) ? "; --surface-of takes the surface of a volume alone" : "");
 }
 
 void tell_unused_sizes(const MeshArguments& arguments, const Surface& surface) {

@@ -33,6 +33,9 @@ void tell_defects_of_files(const MeshArguments& arguments, const MeshInput& inpu
 /// if all have one.
 void split_by_angle(const MeshArguments& arguments, Surface& surface);
 
+/// Whether a file may hold a volume whose surface was not asked for.
+[[nodiscard]] bool may_need_surface_of(const MeshArguments& arguments);
+
 /// Reports vertices on no facet and no segment: they become vertices of the mesh, which is seldom intended
 /// for the inner vertices of a volume that is meshed again.
 void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surface, ProgressView& progress);

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "defects.h"
+#include "mesh_input.h"
 #include "paste_result.h"
 #include "summary.h"
 
@@ -44,7 +45,7 @@ void print_refusal(const MeshArguments& arguments, const Surface& surface, const
     say("holdfast: the surface is valid, but cannot be filled so\n{}",
         list_text(summary, result.defects, shown_in_passing, "--report FILE.json has them"));
     print_advice_on_tolerance(arguments);
-    if (surface.facets.empty())
+    if (surface.facets.empty() && may_need_surface_of(arguments))
       say("--surface-of takes the surface of a volume, where the file holds one\n");
     else if (is_open(summary, result.defects))
       say("`holdfast diagnose` lists the open borders and proposes what closes them\n");

@@ -122,6 +122,10 @@ class Decisions(CliTest):
         self.assertEqual(report["input"]["vertices"], 9)
         self.assertIn("1 vertex in lone.off on no triangle and no segment is kept", said)
         self.assertNotIn("--surface-of", said)  # there is no volume in the file
+        self.write("none.off", off(CUBE_POINTS, []))
+        self.assertNotIn("--surface-of", self.run_program("mesh", "none.off", "-o", "a.vtu", expect=4).stderr)
+        self.run_program("convert", "out.vtu", "none.vtu", "--only", "volume")
+        self.assertIn("--surface-of takes", self.run_program("mesh", "none.vtu", "-o", "a.vtu", expect=4).stderr)
 
 
 if __name__ == "__main__":
