@@ -106,7 +106,7 @@ struct ReadOptions : Limits {
 
 /// The surface of a volume, for meshing it again: its facets and segments with their markers and names, then
 /// all other faces on its boundary and between regions, seen from outside. Only the vertices that these use
-/// are kept, in their order. Throws std::invalid_argument unless there are no regions or one per tetrahedron.
+/// are kept, in their order. Throws std::invalid_argument if regions or indices do not fit the volume.
 [[nodiscard]] HOLDFAST_API Surface surface_of(const Volume& volume);
 
 struct WriteOptions : Limits {
@@ -127,8 +127,8 @@ struct WriteOptions : Limits {
 /// .vtu (appended raw data, with `input_vertices` as the point array "input_vertex"), .vtk (ASCII), .mesh,
 /// .meshb (GMF), .msh, .node (with .ele, .face and .edge; vertices from 0). Coordinates read back bit for
 /// bit, also from text. Vertices, and the corners of tetrahedra and facets, keep their order; .msh 4.1 groups
-/// the entities by marker. Throws FileError, and std::invalid_argument if regions, markers or input vertices
-/// are neither empty nor as many as their entities. `not_held` lists what the format cannot hold.
+/// the entities by marker. Throws FileError, and std::invalid_argument if an index is not that of a vertex,
+/// or if there are some regions, markers or input vertices, but not one per entity. See `not_held`.
 HOLDFAST_API void write_volume(const std::filesystem::path& path, const Volume& volume,
                                const WriteOptions& options = {});
 

@@ -7,7 +7,7 @@ namespace holdfast {
 
 /// Writes a surface to a temporary name and renames the file, so that no partial file is ever left. Throws
 /// Interrupted for its limits, FileError, and std::invalid_argument if there are not as many markers as
-/// entities.
+/// entities, or if an index is not that of a vertex.
 ///
 /// .off, .obj (a group for each marker), .stl (ASCII, a solid for each marker), .ply (ASCII), .poly, .mesh,
 /// .meshb (GMF), .msh (ASCII), .vtk, .vtu; lengths in the surface's own unit. Coordinates read back bit for

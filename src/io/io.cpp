@@ -8,6 +8,7 @@
 #include "io/cells.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/indices.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
 #include "io/text_reader.h"
@@ -188,6 +189,7 @@ void require_consistent(const Volume& volume) {
       !matches(volume.input_vertices, volume.vertices.size()))
     throw std::invalid_argument(
         "a volume with regions, markers or input vertices of another number than their entities");
+  require_indices(volume);
 }
 
 void tell_polygons(MeshData& mesh) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "holdfast/io.h"
+#include "io/indices.h"
 #include "numbers/sorted.h"
 
 namespace holdfast {
@@ -70,6 +71,7 @@ void drop_unused_vertices(Surface& surface) {
 Surface surface_of(const Volume& volume) {
   if (!volume.regions.empty() && volume.regions.size() != volume.tetrahedra.size())
     throw std::invalid_argument("as many regions as tetrahedra are needed, or none");
+  io::require_indices(volume);
   Surface surface;
   surface.vertices = volume.vertices;
   surface.facets = volume.facets;

@@ -6,6 +6,7 @@
 
 #include "holdfast/surface_io.h"
 #include "io/formats.h"
+#include "io/indices.h"
 #include "io/labels.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
@@ -188,6 +189,7 @@ void require_consistent(const Surface& surface) {
   if (!matches(surface.vertex_markers, surface.vertices) || !matches(surface.facet_markers, surface.facets) ||
       !matches(surface.segment_markers, surface.segments))
     throw std::invalid_argument("a surface with markers of another number than their entities");
+  require_indices(surface);
 }
 
 Volume as_volume(const Surface& surface) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "holdfast/surface_io.h"
 #include "io_samples.h"
 
 namespace holdfast {
@@ -129,6 +130,25 @@ TEST(RoundTrip, MismatchedTagsAreTheCallersMistake) {
   Volume volume = sample_volume();
   volume.regions.pop_back();
   EXPECT_THROW(write_volume(folder / "a.vtu", volume), std::invalid_argument);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(RoundTrip, IndicesWithoutAVertexAreTheCallersMistake) {
+  const TemporaryFolder folder;
+  const Index none = Index(1) << 28;
+  for (const auto spoil : {+[](Volume&v, Index i) { v.tetrahedra.back()[3] = i; },
+                           +[](Volume&v, Index i) { v.facets.back()[0] = i; },
+                           +[](Volume&v, Index i) { v.segments.back()[1] = i; }}) {
+    Volume volume = sample_volume();
+    spoil(volume, none);
+    EXPECT_THROW(static_cast<void>(surface_of(volume)), std::invalid_argument);
+    for (const char* name : {"a.vtu", "a.msh", "a.inp", "a.med"})
+      EXPECT_THROW(write_volume(folder / name, volume), std::invalid_argument) << name;
+  }
+  Surface surface = surface_of(sample_volume());
+  surface.facets[0][1] = none;
+  for (const char* name : {"a.stl", "a.off", "a.vtu"})
+    EXPECT_THROW(write_surface(folder / name, surface), std::invalid_argument) << name;
   EXPECT_TRUE(folder.names().empty());
 }
 
