@@ -43,6 +43,7 @@ py::array_t<double> asked_at(const py::object& function, std::span<const Point> 
                              const char* what) {
   const py::array_t<double> points({static_cast<py::ssize_t>(at.size()), py::ssize_t{3}}, at.front().data());
   const py::object given = function(points);
+  if (given.is_none()) throw std::invalid_argument(std::string(what) + " gave None: has it a `return`?");
   // Of numpy's masked arrays, which would lose it.
   if (py::hasattr(given, "filled") && py::cast<bool>(py::bool_(given.attr("mask").attr("any")())))
     throw std::invalid_argument(std::string(what) + " gave an array with a masked entry, which has no value");

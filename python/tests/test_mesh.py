@@ -84,6 +84,14 @@ def test_function_of_sizes_may_give_one_number_for_all(cube):
         holdfast.mesh(*cube, size=lambda p: np.nan)
 
 
+def test_function_without_a_return_is_told(cube):
+    def size(points):
+        0.1 + 0.2 * points[:, 0]
+
+    with pytest.raises(ValueError, match="size gave None: has it a `return`?"):
+        holdfast.mesh(*cube, size=size)
+
+
 @pytest.mark.parametrize("bad", [lambda p: "x", lambda p: np.zeros((len(p), 2)), lambda p: None])
 def test_function_of_sizes_that_gives_nonsense(cube, bad):
     with pytest.raises((ValueError, TypeError)):
