@@ -234,13 +234,13 @@ def document(rows, second, solved):
                 *(f"| {kind} | " + " | ".join(found.get(kind, {}).get(p, "") for p in PROGRAMS) + " |" for kind in kinds)]
 
     text = ["# Solvers", "",
-            "Written by `make solvers`, which installs Debian's programs, meshes a box in a box (two regions, six named sides, a",
-            "named interface) into every format, and has each program that reads the format tell what it found: *counts* of",
-            "points and tetrahedra, *regions* with their volumes, *faces* with the area of each marker, *names*. What stands in a",
-            "cell was right in that run, but for **wrong**; an empty one is what the program does not read. *dealii* is deal.II, which",
-            "takes no interface for a boundary, with files of `--no-interfaces`; *libmed* is its `mdump`, *parser* the test's own reader",
-            "of MFEM's format, which has no Debian package. MFEM's meshes are of first order here.", "",
-            *lines_of(READS, rows), "", "## Second order", "", "`mesh --order 2`, read by the same programs where they take it.", "",
+            "`make solvers` writes this page. It installs Debian's programs, meshes a box in a box (two regions, six named sides,",
+            "a named interface) into every format, and lets each program that reads the format report what it finds: *counts* of",
+            "points and tetrahedra, *regions* with their volumes, *faces* with the area of each marker, *names*. Everything listed",
+            "in a cell was right in that run, unless marked **wrong**; an empty cell means that the program does not read the format.",
+            "*dealii* is deal.II, with files of `--no-interfaces`; *libmed* is its `mdump`; *parser* is the test's own reader of",
+            "MFEM's format, as MFEM has no Debian package. MFEM's meshes are of first order here.", "",
+            *lines_of(READS, rows), "", "## Second order", "", "`mesh --order 2`, read by the same programs if they support it.", "",
             *lines_of(SECOND_ORDER, second)]
     text += ["", "## Problems solved", "", "| | found | expected |", "|---|---|---|"]
     for what, value, expected, tolerance, right in solved:
