@@ -111,7 +111,7 @@ inline std::vector<Triangle> prism_facets(const Triangle& bottom, const Triangle
   return facets;
 }
 
-/// The polyhedron of docs/concepts.md, What cannot be had, moved by `offset`: valid, of volume 1.5, it needs
+/// The polyhedron of docs/concepts.md, What cannot be guaranteed, moved by `offset`: valid, of volume 1.5, it needs
 /// a Steiner point (all of its diagonals lie outside) and holds no integer point.
 inline Surface without_integer_points(double offset) {
   Surface surface;

@@ -398,7 +398,7 @@ class Mesh(CliTest):
         self.run_program("check", "open.off", "a.vtu", "--box")
 
     def test_not_representable_is_7_and_offers_the_exact_mesh(self):
-        far = 2**52  # docs/concepts.md, What cannot be had: valid, and no double lies inside
+        far = 2**52  # docs/concepts.md, What cannot be guaranteed: valid, and no double lies inside
         points = [(2, 1, 0), (1, 1, 3), (1, 2, 1), (3, 2, 2), (0, 0, 3), (2, 1, 3)]
         facets = [(0, 1, 2), (3, 4, 5)]
         for k in range(3):

@@ -335,7 +335,7 @@ TEST(Untangle, TheSameResultTwice) {
 }
 
 TEST(Untangle, NoDoublesInside) {
-  // The polyhedron of docs/concepts.md, What cannot be had, with a vertex inside at first, far from the
+  // The polyhedron of docs/concepts.md, What cannot be guaranteed, with a vertex inside at first, far from the
   // origin: no integer point is inside.
   const Surface near = small::without_integer_points(0);
   const Result filled = mesh(near.view());
