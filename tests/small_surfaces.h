@@ -111,8 +111,8 @@ inline std::vector<Triangle> prism_facets(const Triangle& bottom, const Triangle
   return facets;
 }
 
-/// The polyhedron of docs/concepts.md, What cannot be guaranteed, moved by `offset`: valid, of volume 1.5, it needs
-/// a Steiner point (all of its diagonals lie outside) and holds no integer point.
+/// The polyhedron of docs/concepts.md, What cannot be guaranteed, moved by `offset`: valid, of volume 1.5, it
+/// needs a Steiner point (all of its diagonals lie outside) and holds no integer point.
 inline Surface without_integer_points(double offset) {
   Surface surface;
   surface.vertices = {{2, 1, 0}, {1, 1, 3}, {1, 2, 1}, {3, 2, 2}, {0, 0, 3}, {2, 1, 3}};
