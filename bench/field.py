@@ -7,12 +7,12 @@ There are four parts: surfaces of good triangles, as told here, tessellated CAD 
 told in bench/sizes.py, and other seeds without field points, as told in bench/seeds.py. Each writes its part of the document and leaves the others' as they are.
 
 Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
-between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize, `tetgen -pYq1.4`,
-and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are wall-clock time of meshing as the
-program itself tells it, without reading and writing files (CPU time of TetGen and Netgen; Gmsh's would leave the system's out). The
-faster ones take turns, on memory that is at hand, and their medians count; the others run once. Angles are measured by one
-program, mesh_shape. A mesher has --timeout seconds of processor time a surface, which the table states. RING, of half a million triangles, is made
-here; only the faster meshers get it.
+between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize,
+`tetgen -pYq1.4`, and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are
+wall-clock time of meshing as the program itself tells it, without reading and writing files (CPU time of TetGen and
+Netgen; Gmsh's would leave the system's out). The faster ones take turns, on memory that is at hand, and their medians
+count; the others run once. Angles are measured by one program, mesh_shape. A mesher has --timeout seconds of processor
+time a surface, which the table states. RING, of half a million triangles, is made here; only the faster meshers get it.
 
 Then the whole of `holdfast mesh`, files and all, with its default options on one and on two threads: the least wall-clock
 seconds of some turns. (Memory is not made ready for these: the system goes on working at that for a while, on the second

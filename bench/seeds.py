@@ -1,9 +1,10 @@
 """Whether other random orders do better without field points: the fourth group of field.py.
 
-The sample is fixed by a rule: the valid, closed surfaces of the corpus of at most MOST_TRIANGLES triangles, in the order of the SHA-256
-of their names, the first of these. `holdfast mesh --fill` meshes each with its default seed and with OTHERS more. What is flat by chance
-in the one mesh is not in another, so seeds agree where nothing is flat that need not be: where none of the others has a worst Q (the
-paper's, 1 is regular; as mesh_shape has it) below 1 / TIMES of the default's.
+The sample is fixed by a rule: the valid, closed surfaces of the corpus of at most MOST_TRIANGLES triangles, in the
+order of the SHA-256 of their names, the first of these. `holdfast mesh --fill` meshes each with its default seed and
+with OTHERS more. What is flat by chance in the one mesh is not in another, so seeds agree where nothing is flat that
+need not be: where none of the others has a worst Q (the paper's, 1 is regular; as mesh_shape has it) below 1 / TIMES of
+the default's.
 """
 import hashlib
 import json

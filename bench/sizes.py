@@ -4,9 +4,10 @@ The demo part (examples/make_part.py) and COUNT surfaces of the corpus, each wit
 1/8. The surfaces are fixed by a rule: those of bench/cad.py's order for which regular tetrahedra with the least H for an edge would
 be at most MOST_ELEMENTS, the first of these. So is the least size of the demo part left out.
 
-Gmsh has H as its largest size, TetGen the volume of the regular tetrahedron of that edge as its largest volume. A peer's mesh counts as in
-bench/cad.py, where it has at least LEAST_PEER times as many elements as there would be regular ones: Gmsh's Delaunay ignores the size beside
-large triangles. Each runs once, on one thread; seconds are CPU time of whole processes. Where HXT exceeds the time limit, it is not tried at smaller sizes.
+Gmsh has H as its largest size, TetGen the volume of the regular tetrahedron of that edge as its largest volume. A
+peer's mesh counts as in bench/cad.py, where it has at least LEAST_PEER times as many elements as there would be regular
+ones: Gmsh's Delaunay ignores the size beside large triangles. Each runs once, on one thread; seconds are CPU time of
+whole processes. Where HXT exceeds the time limit, it is not tried at smaller sizes.
 """
 import statistics
 import subprocess

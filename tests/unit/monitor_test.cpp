@@ -1,4 +1,4 @@
-// How often a call polls its caller, and what it knows of memory.
+// How often a call polls its caller, and how it measures memory.
 #include "mesh/monitor.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ Surface torus(Index around, Index across) {
 }
 
 // The caller's own function may be slow, too.
-TEST(Monitor, AsksWhileSizesAreAskedFor) {
+TEST(Monitor, PollsWhileSizesAreComputed) {
   const Surface surface = torus(30, 20);
   std::size_t calls = 0, most = 0;
   Options options;
@@ -59,7 +59,7 @@ TEST(Monitor, AsksWhileSizesAreAskedFor) {
   EXPECT_LE(most, 1000u);  // they take a tenth of a second
 }
 
-TEST(Monitor, TellsWhatTheCallerThrew) {
+TEST(Monitor, PassesOnTheCallersException) {
   Options options;
   options.progress = [](const Progress&) -> bool { throw std::runtime_error("enough"); };
   Monitor monitor(options);
@@ -67,13 +67,13 @@ TEST(Monitor, TellsWhatTheCallerThrew) {
   EXPECT_TRUE(monitor.caller_threw());
 }
 
-TEST(Memory, IsUnknownWithoutASystemThatTells) {
+TEST(Memory, IsUnknownIfTheSystemDoesNotReportIt) {
   EXPECT_GT(resident_memory_bytes().value_or(0), 1'000'000u);
   EXPECT_FALSE(resident_memory_bytes("/nowhere/statm"));
   EXPECT_FALSE(resident_memory_bytes("/dev/null"));
 }
 
-TEST(Limits, RunFromTheTimeThatIsGiven) {
+TEST(Limits, BeginAtTheGivenTime) {
   const Surface box = small::box();
   Options options;
   options.time_limit = 3600;
@@ -95,7 +95,7 @@ TEST(Threads, CallBetweenTasks) {
   }
 }
 
-TEST(Threads, WhatIsThrownBetweenTasksEndsThem) {
+TEST(Threads, AnExceptionBetweenTasksEndsThem) {
   for (const unsigned count : {1u, 3u}) {
     std::atomic<std::size_t> done = 0;
     const Threads threads = Threads(count).polling([&] { throw Interrupted(Outcome::cancelled); });

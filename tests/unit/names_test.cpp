@@ -20,7 +20,7 @@ Surface marked_tetrahedron(std::vector<int> markers, std::map<int, std::string> 
   return surface;
 }
 
-TEST(Names, GoWithTheVolume) {
+TEST(Names, AreThoseOfTheVolume) {
   Surface surface = marked_tetrahedron({1, 1, 2, 2}, {{1, "inlet"}, {2, "wall"}});
   surface.names.regions[5] = "core";
   Options options;
@@ -42,7 +42,7 @@ TEST(Names, NoVolumeHasNone) {
   EXPECT_TRUE(result.volume.names.empty());
 }
 
-TEST(Names, VertexMarkersGoWithTheSurfaceOfAVolume) {
+TEST(Names, VertexMarkersStayOnTheSurfaceOfAVolume) {
   Surface surface = marked_tetrahedron({}, {});
   surface.vertices.insert(surface.vertices.begin(), Point{0.2, 0.2, 0.2});
   for (Triangle& t : surface.facets)

@@ -1,4 +1,4 @@
-// Where points stand beside sides and facets.
+// Points near sides and facets.
 #include "repair/near.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ double distance_exactly(const Point& p, const Point& a, const Point& b, const Po
   return std::sqrt(static_cast<double>(Rational(along * along / dot_exactly(n, n))));
 }
 
-TEST(Near, TheDistanceFromASliverIsAsUncertainAsItIsTold) {
+TEST(Near, TheDistanceFromASliverHasTheReportedUncertainty) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto vector = [&](double size) {
@@ -57,9 +57,9 @@ TEST(Near, TheDistanceFromASliverIsAsUncertainAsItIsTold) {
   EXPECT_GT(beyond_rounding, 10);
 }
 
-/// Facets of all shapes, down to slivers whose corners are a last bit beside a line; points on them, about as
-/// far away as is asked for, and anywhere.
-TEST(Near, FarFromFacetNeverTellsAPointThatIsNear) {
+/// Facets of all shapes, down to slivers whose corners are a last bit off a line; points on them, at about
+/// the given distance, and anywhere.
+TEST(Near, FarFromFacetIsNeverTrueForANearPoint) {
   std::mt19937_64 random(11);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -88,7 +88,7 @@ TEST(Near, FarFromFacetNeverTellsAPointThatIsNear) {
   EXPECT_GT(far, 50'000);
 }
 
-TEST(Near, FarFromFacetTellsNothingOfAFacetWithoutAreaOrBeyondTheRangeOfProducts) {
+TEST(Near, FarFromFacetIsFalseWithoutAreaOrBeyondTheRangeOfProducts) {
   const Point a{0, 0, 0}, b{1, 1, 1};
   EXPECT_FALSE(FarFromFacet(a, a, a, 0.1)({0, 0, 0.05}));
   EXPECT_FALSE(FarFromFacet(a, b, b, 0.1)({0.5, 0.5, 0.55}));

@@ -1,5 +1,5 @@
-// The elementary functions against wider numbers, and against bits that are known; the random orders;
-// vectors, and lists and keys in ascending order.
+// The elementary functions compared with wider numbers and with known bits; random orders; vectors; sorted
+// lists and keys.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,7 +101,7 @@ TEST_F(Elementary, LengthIsRightAtBothEndsOfTheRange) {
   }
 }
 
-TEST(ElementaryEnds, AreTaken) {
+TEST(ElementaryEnds, AreHandled) {
   EXPECT_EQ(numbers::exp(0), 1);
   EXPECT_EQ(numbers::exp(-kInfinity), 0);
   EXPECT_EQ(numbers::exp(710), kInfinity);
@@ -128,7 +128,7 @@ TEST(ElementaryEnds, AreTaken) {
   EXPECT_TRUE(std::isnan(numbers::sin(kInfinity)));
 }
 
-// What a library or a processor changes in a single bit changes this.
+// Any difference in a single bit between libraries or processors makes this fail.
 TEST(ElementaryBits, AreTheSameEverywhere) {
   numbers::Random random(3);
   std::uint64_t digest = 0;
@@ -145,7 +145,7 @@ TEST(ElementaryBits, AreTheSameEverywhere) {
   EXPECT_EQ(digest, 12329334262455746209u);
 }
 
-TEST(RandomOrder, EveryOrderIsAsLikely) {
+TEST(RandomOrder, AllOrdersAreEquallyLikely) {
   numbers::Random random(2);
   for (const int size : {3, 4}) {
     std::map<std::vector<int>, int> count;
@@ -180,7 +180,7 @@ TEST(RandomNumbers, AreBelowAndEven) {
   std::array<int, 7> count{};
   for (int k = 0; k < 70'000; ++k) ++count.at(numbers::below(7, random));
   for (const int n : count) EXPECT_NEAR(n, 10'000, 600);
-  // Where most numbers would have to be thrown away.
+  // A range for which most numbers have to be discarded.
   const std::uint64_t large = (std::uint64_t{1} << 63) + 1;
   for (int k = 0; k < 1000; ++k) EXPECT_LT(numbers::below(large, random), large);
 }
@@ -198,7 +198,7 @@ TEST(RandomNumbers, OfABellHaveMeanZeroAndVarianceOne) {
   EXPECT_NEAR(squares / kTimes, 1, 0.02);
 }
 
-TEST(Vectors, CrossIsNormalToBothAndTurnsAsTheAxesDo) {
+TEST(Vectors, CrossIsNormalToBothAndRightHanded) {
   EXPECT_EQ(cross({1, 0, 0}, {0, 1, 0}), (Vector{0, 0, 1}));
   const Vector u{1, 2, 3}, v{-2, 5, 7};
   EXPECT_EQ(dot(cross(u, v), u), 0);

@@ -1,4 +1,4 @@
-// Parts that were closed, and are no longer.
+// Parts that were closed and are open now.
 #include "repair/opened.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr Index kFacetsOfBox = 12;
 
-/// Two boxes that are apart, each a part, of which so many facets are left.
+/// Two separate boxes, each a part, with so many facets left.
 Index opened_of(Index left_of_first, Index left_of_second) {
   Surface given, left;
   small::add_box(given, {0, 0, 0}, {1, 1, 1});
@@ -39,7 +39,7 @@ TEST(Opened, IsAPartThatLostAFacet) {
   EXPECT_EQ(opened_of(kFacetsOfBox, kFacetsOfBox - 1), 1u);
 }
 
-TEST(Opened, IsAPartOfWhichNothingIsLeft) {
+TEST(Opened, IsAPartThatLostEverything) {
   EXPECT_EQ(opened_of(0, kFacetsOfBox), 0u);
   EXPECT_EQ(opened_of(kFacetsOfBox, 0), 1u);
 }

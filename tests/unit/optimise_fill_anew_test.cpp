@@ -1,5 +1,4 @@
-// Polyhedra of a mesh as surfaces of their own: what fills one takes its place, and what does not changes
-// nothing.
+// Polyhedra of a mesh as separate surfaces: a filling replaces its polyhedron, and a failure changes nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +40,7 @@ struct Searched {
   Search search;
 };
 
-// By a call of its own.
+// By a separate call.
 std::optional<Filling> filled(const Complex& complex, PointsOfFilling = {}) {
   const Result result = mesh(complex, Options{});
   if (result.outcome != Outcome::done) return std::nullopt;
@@ -50,14 +49,14 @@ std::optional<Filling> filled(const Complex& complex, PointsOfFilling = {}) {
   return Filling{{first_added, result.volume.vertices.end()}, result.volume.tetrahedra};
 }
 
-// That heeds nothing but what it is asked for.
+// Without any other condition.
 Filler filler(std::function<std::optional<Filling>(const Complex&, PointsOfFilling)> fill) {
   return [fill = std::move(fill)](const ToFill& asked, const LikelyToFill&) {
     return fill(asked.polyhedron.view(), asked.points);
   };
 }
 
-// The tetrahedra that are there, in the numbers of the surface, whose vertices are in ascending order.
+// The existing tetrahedra in the numbers of the surface, whose vertices are in ascending order.
 Filling as_it_is(const TetMesh& mesh, const Polyhedron& polyhedron) {
   std::vector<Vertex> vertices;
   for (const Tet t : polyhedron.tets())
@@ -74,7 +73,7 @@ Filling as_it_is(const TetMesh& mesh, const Polyhedron& polyhedron) {
   return filling;
 }
 
-TEST(Polyhedron, HasAClosedSurfaceThatLooksOutwards) {
+TEST(Polyhedron, HasAClosedSurfaceThatFacesOutwards) {
   for (const std::size_t most : {1u, 2u, 5u, 20u, 1000u}) {
     Searched s(3);
     const Polyhedron polyhedron(s.search, {s.tets[s.tets.size() / 2]}, most);
@@ -97,7 +96,7 @@ TEST(Polyhedron, HasAClosedSurfaceThatLooksOutwards) {
   }
 }
 
-TEST(Polyhedron, IsFilledByItsOwnFacesAndVerticesAlone) {
+TEST(Polyhedron, IsFilledOnlyByItsOwnFacesAndVertices) {
   Searched s(5);
   const Polyhedron polyhedron(s.search, {s.tets.front()}, 30);
   const Filling whole = as_it_is(s.mesh, polyhedron);
@@ -112,8 +111,8 @@ TEST(Polyhedron, IsFilledByItsOwnFacesAndVerticesAlone) {
   EXPECT_FALSE(polyhedron.is_filled_by(Filling{}));
 }
 
-// One of its faces may have none but worse tetrahedra.
-TEST(Polyhedron, KnowsWhatItsFacesForce) {
+// One of its faces may allow only worse tetrahedra.
+TEST(Polyhedron, KnowsTheQualityThatItsFacesForce) {
   std::size_t yes = 0, no = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Searched s(seed);
@@ -138,7 +137,7 @@ TEST(Polyhedron, KnowsWhatItsFacesForce) {
   EXPECT_GT(no, 0U);
 }
 
-TEST(Polyhedron, TakesNothingThatIsTurnedOver) {
+TEST(Polyhedron, RefusesInvertedTetrahedra) {
   Searched s(5);
   const Polyhedron polyhedron(s.search, {s.tets.front()}, 30);
   Filling filling = as_it_is(s.mesh, polyhedron);
@@ -198,8 +197,8 @@ TEST(FillAnew, MakesNothingWorse) {
   EXPECT_GT(better, 5);
 }
 
-// Once the worst is in vain, others are worth it where it goes with them.
-TEST(FillAnew, EndsWithOneBesideTheWorst) {
+// After the worst has failed, others pay only if the worst is removed with them.
+TEST(FillAnew, EndsAfterOneOtherThanTheWorst) {
   std::size_t beside = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Searched s(seed);
@@ -220,8 +219,8 @@ TEST(FillAnew, EndsWithOneBesideTheWorst) {
   EXPECT_GT(beside, 0U);
 }
 
-// A tetrahedron by itself is as it is.
-TEST(FillAnew, LeavesWhatIsForced) {
+// A single tetrahedron cannot change.
+TEST(FillAnew, LeavesForcedElements) {
   Searched s(2);
   const auto worst = s.search.worst();
   ASSERT_TRUE(worst && worst->quality > 10);
@@ -235,7 +234,7 @@ TEST(FillAnew, LeavesWhatIsForced) {
   EXPECT_EQ(calls, 0);
 }
 
-TEST(FillAnew, ChangesNothingWhereNothingFits) {
+TEST(FillAnew, ChangesNothingIfNothingFits) {
   const auto corners_of = [](const TetMesh& mesh) {
     std::vector<TetMesh::Corners> corners;
     for (const Tet t : solid(mesh)) corners.push_back(mesh.corners(t));
@@ -287,8 +286,8 @@ double worst_of(const Filling& filling, const Complex& complex) {
   return worst;
 }
 
-// A point is worth ten times the quality, as elsewhere.
-TEST(FillAnew, TakesNoPointForLittle) {
+// A point must improve the quality ten times, as elsewhere.
+TEST(FillAnew, AddsNoPointForALittleGain) {
   int offered = 0, better = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Searched s(seed);
@@ -311,8 +310,8 @@ TEST(FillAnew, TakesNoPointForLittle) {
   EXPECT_GT(better, 0);
 }
 
-// Points that a Delaunay mesh of the rest does without, where elements may be bad.
-TEST(FillAnew, DoesWithoutPoints) {
+// A Delaunay mesh of the rest does not need the points if elements may be bad.
+TEST(FillAnew, RemovesPoints) {
   std::size_t gone = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     TetMesh mesh = slivers(0.2, seed, 3);
@@ -354,8 +353,8 @@ TEST(FillAnew, DoesWithoutPoints) {
   EXPECT_GT(gone, 10U);
 }
 
-// What is told to be likely is mostly what is asked for next, and to ask changes nothing.
-TEST(FillAnew, TellsWhatIsLikelyNext) {
+// The predicted request is mostly the next one, and predicting changes nothing.
+TEST(FillAnew, PredictsTheNextRequest) {
   int likely_ones = 0, right = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Searched asking(seed, {}, 8), silent(seed, {}, 8);
@@ -381,7 +380,7 @@ TEST(FillAnew, TellsWhatIsLikelyNext) {
   EXPECT_GE(likely_ones, right);
 }
 
-TEST(FillAnew, EndsWhereTheCallIsCancelled) {
+TEST(FillAnew, EndsIfTheCallIsCancelled) {
   Limits limits;
   limits.cancel = CancelToken();
   Searched s(4, limits);

@@ -29,7 +29,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double worst_quality(const TetMesh& mesh) { return badness_of(mesh, solid(mesh), {kInfinity}).worst; }
 
-// Facets and segments of some faces inside, so that something stands in the way.
+// Facets and segments on some inner faces, as obstacles.
 void constrain(TetMesh& mesh, std::mt19937_64& random) {
   for (const Tet t : solid(mesh)) {
     if (random() % 12 != 0) continue;
@@ -72,9 +72,9 @@ TEST(Badness, FewerFlatOnesCountFirst) {
   EXPECT_EQ(not_a_number.flat, 1u);
 }
 
-TEST(Badness, NoneBecomesHopelessForFewerFlatOnes) {
+TEST(Badness, NoElementBecomesHopelessForFewerFlatOnes) {
   const BadFrom from{100, 1000};
-  Badness cap, parted;  // a cap, and the three that a point makes of it
+  Badness cap, parted;  // a cap, and the three tetrahedra after a point is added
   cap.add(1e12, from);
   for (int k = 0; k < 3; ++k) parted.add(400, from);
   EXPECT_TRUE(parted.is_worthwhile_after(cap));
@@ -86,7 +86,7 @@ TEST(Badness, NoneBecomesHopelessForFewerFlatOnes) {
   EXPECT_EQ(both.worst, 1e12);
 }
 
-TEST(Badness, NullOnesCountFirstAndGoForFlatOnes) {
+TEST(Badness, NullOnesCountFirstAndMayBecomeFlat) {
   const BadFrom from{100, 1000, 1e10};
   Badness null, flat;
   null.add(1e15, from);
@@ -142,8 +142,8 @@ TEST(Exchange, NeverWorseAndNothingLost) {
   }
 }
 
-// Null ones count most, then hopeless, then flat ones, then the worst Q: also where what counts less gets
-// worse for it.
+// Null ones count most, then hopeless, then flat ones, then the worst Q, even if the less important ones get
+// worse.
 TEST(Exchange, GoesDownInTheOrderOfBadness) {
   int more_of_a_lesser_kind = 0, worse_for_fewer = 0;
   for (std::uint64_t seed = 0; seed < 80; ++seed) {
@@ -205,8 +205,8 @@ TEST(FlatRemover, LeavesFewerFlatOnes) {
             20u);
 }
 
-// Whatever the limit is: none as bad as the one that goes comes to stand.
-TEST(FlatRemover, MakesNothingAsBadAsWhatItRemoves) {
+// Whatever the limit: no new element is as bad as the removed one.
+TEST(FlatRemover, MakesNothingAsBadAsTheRemovedElement) {
   EXPECT_GT(remove_bad(
                 1e-2, [](double quality) { return 0.98 * quality; }, 5),
             20u);
@@ -244,8 +244,8 @@ TEST(Reconnect, OnlyBetterFillings) {
   EXPECT_GT(reconnected, 0);
 }
 
-// A corner of three facets in one plane but for rounding: nothing but a point helps.
-TEST(InsertPoint, WhereThreeFacetsMakeACap) {
+// A corner of three facets that are coplanar up to rounding: only a point helps.
+TEST(InsertPoint, OfThreeFacetsThatMakeACap) {
   TetMesh mesh = delaunay_in_box({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, -1}, {0.3, 0.3, 1}}, 2);
   const auto first_free = static_cast<Vertex>(mesh.vertex_count() + 1);
   const Face base = find_face(mesh, 0, 1, 2);
@@ -272,8 +272,8 @@ TEST(InsertPoint, WhereThreeFacetsMakeACap) {
   expect_sound(mesh, volume);
 }
 
-// Two grids in parallel planes, these at a distance at which every tetrahedron between them is flat, and
-// askew to the axes, so that rounding puts four points of a plane in any order.
+// Two grids in parallel planes, so close that every tetrahedron between them is flat, and oblique to the
+// axes, so that rounding gives four points of a plane any orientation.
 TetMesh slab(double gap) {
   const Point u{0.36, 0.48, 0.8}, v{-0.8, 0.6, 0}, w{-0.48, -0.64, 0.6};
   std::vector<Point> points;
@@ -304,7 +304,7 @@ TEST(Optimise, NoNullTetrahedraStayInAThinSlab) {
   }
 }
 
-TEST(Optimise, SliversGo) {
+TEST(Optimise, RemovesSlivers) {
   for (const double jitter : {0.0, 1e-15, 1e-9, 1e-3, 0.3})
     for (const bool constrained : {false, true}) {
       TetMesh mesh = slivers(jitter, 11);
@@ -328,8 +328,8 @@ TEST(Optimise, SliversGo) {
     }
 }
 
-// Flips near an element take others of its region, whose slots the search was not given: these count, too.
-TEST(Shake, IsNotAtTheCostOfOthers) {
+// Flips near an element change others of its region, whose slots the search did not get: these count, too.
+TEST(Shake, IsNotAtTheExpenseOfOthers) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     TetMesh mesh = slivers(0.3, seed, 3);
     std::mt19937_64 random(seed);
@@ -359,8 +359,8 @@ TetMesh cube_with_points(std::size_t n, std::uint64_t seed) {
   return mesh;
 }
 
-// What stands where a point was is no worse than it is said to be, and no better.
-TEST(RemovePoints, LeavesNoQualityOfWhatIsGone) {
+// The elements where a point was have exactly the recorded quality.
+TEST(RemovePoints, KeepsNoQualityOfRemovedElements) {
   std::size_t removed = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     TetMesh mesh = cube_with_points(20, seed);

@@ -1,4 +1,4 @@
-// Random exchanges round the worst element: none makes anything as bad, and what a walk comes to pays.
+// Random exchanges round the worst element: none makes anything as bad, and a finished walk pays.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ TEST(RandomExchange, MakesNothingAsBad) {
   EXPECT_EQ((volume_of(mesh) - volume).sign(), 0);
 }
 
-// Blocks that have not changed are not looked at again.
+// Unchanged blocks are not examined again.
 TEST(Qualities, TheWorstIsThatOfAScan) {
   std::mt19937_64 random(3);
   TetMesh mesh = slivers(0.3, 3, 8);
@@ -75,9 +75,8 @@ TEST(Qualities, TheWorstIsThatOfAScan) {
   }
 }
 
-// What neither exchanges nor shakes take away may go after a walk; whatever comes of it is no worse.
-// A flat tetrahedron on a facet, alone, and many vertices below its plane; or one of them above it, wherever
-// among the others it stands.
+// A flat tetrahedron on a facet, alone, and many vertices below its plane; or one of them above it, at any
+// position among the others.
 TEST(ForcedApex, IsFoundWhereverItIsOnAnyNumberOfThreads) {
   constexpr int kOthers = 20'000;
   for (const int good : {-1, 4, 9'000, kOthers - 1}) {
@@ -101,7 +100,8 @@ TEST(ForcedApex, IsFoundWhereverItIsOnAnyNumberOfThreads) {
   }
 }
 
-TEST(Walk, GoesOnWhereNothingElseHelps) {
+// A walk may remove an element that neither exchanges nor shakes remove; the result is no worse.
+TEST(Walk, HelpsIfNothingElseDoes) {
   int better = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     TetMesh mesh = slivers(0.4, seed, 3);

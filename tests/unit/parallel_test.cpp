@@ -17,7 +17,7 @@ namespace {
 std::set<std::thread::id> threads_of(const Threads& threads, std::size_t tasks) {
   std::mutex mutex;
   std::set<std::thread::id> ids;
-  // Each waits until as many run as can: so that none does the work of others.
+  // Each waits until as many run as can, so that none does the work of others.
   const std::size_t most = std::min<std::size_t>(threads.count(), tasks);
   std::atomic<std::size_t> running = 0;
   parallel(threads, tasks, [&](std::size_t) {
@@ -47,7 +47,7 @@ TEST(Threads, StayForTheNextWork) {
   EXPECT_EQ(all.size(), 3);
 }
 
-TEST(Parallel, RunsEachTaskOnceHoweverManyThreads) {
+TEST(Parallel, RunsEachTaskOnceOnAnyNumberOfThreads) {
   for (const unsigned count : {1u, 2u, 3u, 8u})
     for (const std::size_t tasks : {0, 1, 2, 7, 1000}) {
       std::vector<int> runs(tasks, 0);
@@ -56,7 +56,7 @@ TEST(Parallel, RunsEachTaskOnceHoweverManyThreads) {
     }
 }
 
-TEST(Parallel, UsesNoMoreThreadsThanTold) {
+TEST(Parallel, UsesNoMoreThreadsThanAllowed) {
   const Threads threads(4);
   EXPECT_EQ(threads_of(threads, 4).size(), 4);
   EXPECT_EQ(threads_of(threads.at_most(2), 20).size(), 2);
@@ -97,7 +97,7 @@ TEST(Parallel, SeveralThreadsMayCallItAtTheSameTime) {
   EXPECT_EQ(sum, 4 * 100 * 6);
 }
 
-TEST(Parallel, ThrowsTheFirstTasksErrorOnAfterAllHaveRun) {
+TEST(Parallel, PassesOnTheFirstTasksErrorAfterAllHaveRun) {
   const Threads threads(3);
   for (int k = 0; k < 20; ++k) {
     std::atomic<int> runs = 0;

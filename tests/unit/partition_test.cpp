@@ -1,4 +1,4 @@
-// Volumes in pieces: every entity has one owner, ghosts are what touches a piece, and both sides of an
+// Volumes in pieces: every entity has one owner, ghosts are the neighbours of a piece, and both sides of an
 // interface agree.
 #include "holdfast/partition.h"
 
@@ -33,7 +33,7 @@ std::vector<MeshPiece> all(const PieceLoader& load, std::size_t parts) {
   return pieces;
 }
 
-/// Whether the pieces have what `Volume` has, each once.
+/// Whether the pieces have all entities of the volume, each once.
 void expect_whole(const Volume& whole, const std::vector<MeshPiece>& pieces) {
   std::set<std::uint64_t> tetrahedra, vertices;
   std::size_t facets = 0, segments = 0;
@@ -142,7 +142,7 @@ TEST(Partition, PiecesHaveEveryEntityOnceAndTheGhostsRoundThem) {
   EXPECT_THROW(static_cast<void>(pieces_of(volume, part_of, 2)), std::invalid_argument);
 }
 
-TEST(Partition, WhatIsOnNoTetrahedronIsInPieceZero) {
+TEST(Partition, EntitiesOnNoTetrahedronAreInPieceZero) {
   Volume volume;
   volume.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {5, 5, 5}, {6, 5, 5}};
   volume.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
@@ -155,7 +155,7 @@ TEST(Partition, WhatIsOnNoTetrahedronIsInPieceZero) {
   EXPECT_EQ(pieces[1].volume.facets.size(), 0u);
 }
 
-/// Facets by the whole's numbers, with marker and owner.
+/// Facets by their numbers in the whole, with marker and owner.
 std::multiset<std::tuple<Whole, int, Index>> facets_of(const MeshPiece& piece) {
   std::multiset<std::tuple<Whole, int, Index>> facets;
   for (std::size_t f = 0; f < piece.volume.facets.size(); ++f) {
@@ -167,7 +167,7 @@ std::multiset<std::tuple<Whole, int, Index>> facets_of(const MeshPiece& piece) {
   return facets;
 }
 
-TEST(Partition, PartsAsTheyAreEqualPiecesOfTheJoinedVolume) {
+TEST(Partition, PiecesOfPartsEqualThoseOfTheJoinedVolume) {
   DivideOptions dividing;
   dividing.parts = 4;
   dividing.size = 0.2;

@@ -66,7 +66,7 @@ struct Cube {
   }
 
   [[nodiscard]] VolumeData data() { return {mesh, region_of, sizes, kept, first_free}; }
-  /// By slot: the part in a pattern of bricks; every eleventh slot is in none.
+  /// By slot: the part in a pattern of bricks; every eleventh slot is in no part.
   [[nodiscard]] std::vector<std::uint32_t> bricks() const {
     std::vector<std::uint32_t> part_of(mesh.slot_count(), kNone);
     for (Tet t = 0; t < mesh.slot_count(); ++t)
@@ -74,7 +74,7 @@ struct Cube {
         part_of[t] = (centroid(mesh, t)[0] < 0.6 ? 0 : 1) + (centroid(mesh, t)[2] < 0.4 ? 0 : 2);
     return part_of;
   }
-  /// Constraints too: corners in ascending order, and the facets and segments among them.
+  /// With constraints: corners in ascending order, and the facets and segments among them.
   [[nodiscard]] std::map<TetMesh::Corners, std::vector<std::uint32_t>> content() const {
     std::map<TetMesh::Corners, std::vector<std::uint32_t>> all;
     for (Tet t = 0; t < mesh.slot_count(); ++t) {
@@ -94,7 +94,7 @@ struct Cube {
   }
 };
 
-TEST(Parts, AreValidMeshesAndJoinToWhatTheyWere) {
+TEST(Parts, AreValidMeshesAndJoinToTheOriginal) {
   for (const bool with_wall : {false, true}) {
     Cube cube(3000, with_wall);
     const auto before = cube.content();
@@ -130,8 +130,8 @@ TEST(Parts, EdgesOfInterfacesAreSegmentsAndTheirFacesFacets) {
   EXPECT_GT(interfaces, 1000u);
 }
 
-// Points are inserted in each part, and some slots and vertices come and go.
-TEST(Parts, JoinToAValidMeshAfterTheyWereChanged) {
+// Points are inserted in each part, and some slots and vertices are added and removed.
+TEST(Parts, JoinToAValidMeshAfterChanges) {
   Cube cube(2000, true);
   const auto facets = [&] {
     std::size_t count = 0;
@@ -180,8 +180,8 @@ TEST(Parts, JoinToAValidMeshAfterTheyWereChanged) {
     }
 }
 
-// A thin layer of points between two far ones: nearly every tetrahedron is near each cut, again and again.
-TEST(Parts, WhatIsLeftAtCutsComesToAnEnd) {
+// A thin layer of points between two distant ones: nearly every tetrahedron is near each cut, every time.
+TEST(Parts, CuttingAgainEnds) {
   std::mt19937_64 random(7);
   TetMesh mesh;
   MeshEditor(mesh).add_vertex(Point{0.5, 0.5, 1});
@@ -204,9 +204,9 @@ TEST(Parts, WhatIsLeftAtCutsComesToAnEnd) {
   EXPECT_EQ(find_fault(mesh), "");
 }
 
-// So that the last of the work is not one thread's: what is left is small beside the mesh, but worth two
+// So that one thread does not do the last work alone: the rest is small compared with the mesh, but worth two
 // parts.
-TEST(Parts, WhatIsLeftIsCutAgainWhereItIsMuchOfTheMesh) {
+TEST(Parts, TheRestIsCutAgainIfItIsMuchOfTheMesh) {
   Cube cube(25000, false);
   std::unique_ptr<Parts> parts = cut_evenly(cube.data(), 1);
   ASSERT_TRUE(parts);
@@ -240,11 +240,11 @@ TEST(Parts, KnowWhichVerticesWereOnCutsBefore) {
   EXPECT_LT(told.size(), parts->parts().front().mesh.vertex_count());
 }
 
-TEST(ImprovedVolume, CountsAsChangedWhatIsAtFreshVertices) {
+TEST(ImprovedVolume, CountsElementsAtFreshVerticesAsChanged) {
   Cube cube(2000, false);
   std::vector<std::uint8_t> fresh(cube.mesh.vertex_count(), 0);
   fresh[100] = 1;
-  fresh.pop_back();  // the last vertex is higher than it tells of
+  fresh.pop_back();  // the last vertex has a higher number than the list
   ImprovedVolume volume(cube.data(), fresh);
   ImprovedVolume all(cube.data());
   const auto last = static_cast<Vertex>(fresh.size());
@@ -259,14 +259,14 @@ TEST(ImprovedVolume, CountsAsChangedWhatIsAtFreshVertices) {
   for (Vertex v = 0; v <= last; ++v) EXPECT_EQ(volume.take_touched(v), v == 100 || v == last);
 }
 
-// What a thread has computed, however little of the processor it gets.
+// The CPU time of a thread, however little of the processor it gets.
 double seconds_of_this_thread() {
   timespec used{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-TEST(TasksInParts, AnErrorInOneIsThrownOnAndOthersHearThatOneIsInterrupted) {
+TEST(TasksInParts, AnErrorInOneIsPassedOnAndInterruptsTheOthers) {
   Options options;
   Monitor monitor(options);
   EXPECT_THROW(parallel_monitored(2, 4, monitor, {0, 1},
@@ -280,7 +280,7 @@ TEST(TasksInParts, AnErrorInOneIsThrownOnAndOthersHearThatOneIsInterrupted) {
     ADD_FAILURE() << "nobody told";
   };
   EXPECT_THROW(parallel_monitored(3, 6, monitor, {0, 1}, poll_for_long), Interrupted);
-  // As Ctrl-C in Python: thrown once by the caller's function. On one thread the others have yet to begin.
+  // As Ctrl-C in Python: thrown once by the caller's function. On one thread the other tasks have not begun.
   for (const unsigned threads : {1u, 3u}) {
     bool thrown = false;
     options.progress = [&](const Progress&) {
@@ -304,7 +304,7 @@ TEST(ImproveInParts, IsTheSameOnAnyNumberOfThreadsAndMissesNothing) {
   EXPECT_EQ(one.content(), two.content());
   EXPECT_TRUE(std::ranges::equal(one.mesh.positions(), two.mesh.positions()));
 
-  // As good near the plane that cut it as elsewhere.
+  // As good near the cut as elsewhere.
   const auto bad_share = [&](bool near) {
     double bad = 0, all = 0;
     for (Tet t = 0; t < one.mesh.slot_count(); ++t) {

@@ -1,4 +1,4 @@
-// Vertices with identical coordinates are one vertex, and everything that is told names those of the caller.
+// Vertices with identical coordinates are one vertex, and all messages name those of the caller.
 #include "surface/places.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ using small::surface_of;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The box's corners moved behind `front`.
+// The box's corners after `front`.
 Surface behind(const Surface& whole, const std::vector<Point>& front) {
   Surface surface = whole;
   surface.vertices.insert(surface.vertices.begin(), front.begin(), front.end());
@@ -48,7 +48,7 @@ std::string message_of_only(const std::vector<Defect>& defects) {
 
 // --- which vertices are one
 
-TEST(Places, DistinctVerticesAreWhatTheyWere) {
+TEST(Places, DistinctVerticesDoNotChange) {
   const Surface s = box();
   EXPECT_TRUE(vertex_map(s.view()).empty());
   const Result result = mesh(s.view());
@@ -88,7 +88,7 @@ TEST(Places, OfVerySmallAndLargeCoordinates) {
 }
 
 TEST(Places, UnusedVerticesThatAreRepeatedOrNotFiniteAreLeftOut) {
-  // Two copies of corner 5 in front, and behind a point inside, twice, and what is not finite.
+  // Two copies of corner 5 first, and after them a point inside, twice, and points that are not finite.
   Surface s = behind(box(), {{1, 0, 1}, {1, 0, 1}});
   for (const Point& p :
        {Point{0.5, 0.5, 0.5}, Point{kNan, 0, 0}, Point{0.5, 0.5, 0.5}, Point{0, 0, kInfinity}})
@@ -106,7 +106,7 @@ TEST(Places, UnusedVerticesThatAreRepeatedOrNotFiniteAreLeftOut) {
   EXPECT_EQ(broken_rules(s, result), "");
 }
 
-TEST(Places, ATriangleSoupIsMeshedAsTheSurfaceThatItIs) {
+TEST(Places, ATriangleSoupIsMeshedAsASurface) {
   Surface whole = small::touching();
   whole.facet_markers.resize(whole.facets.size());
   for (std::size_t f = 0; f < whole.facets.size(); ++f) whole.facet_markers[f] = static_cast<int>(f);
@@ -145,7 +145,7 @@ TEST(Places, TheLeastOfTheSizesCounts) {
   EXPECT_GT(mesh(soup.view(), options).report.field.points, 4 * coarse + 4);
 }
 
-TEST(Places, WhatStandsAfterValidationHasEachPlaceOnce) {
+TEST(Places, TheStateAfterValidationHasEachPlaceOnce) {
   const Surface soup = split::soup(box());
   Options options;
   options.stop_after = Stage::validate;
@@ -155,7 +155,7 @@ TEST(Places, WhatStandsAfterValidationHasEachPlaceOnce) {
   EXPECT_EQ(result.vertex_map.size(), soup.vertices.size());
 }
 
-// --- what is told
+// --- messages
 
 TEST(Places, FacetsThatBecomeOneAreRepeated) {
   Surface s = box();
@@ -211,7 +211,7 @@ TEST(Places, NonFiniteVerticesInUseAreDefects) {
   }
 }
 
-TEST(Places, OpenBordersAreToldByTheVerticesOfTheCaller) {
+TEST(Places, OpenBordersNameTheVerticesOfTheCaller) {
   Surface s = split::soup(box());
   const Triangle gone = s.facets.front();
   s.facets.erase(s.facets.begin());  // its vertices, 0 to 2, are unused now
@@ -233,7 +233,7 @@ TEST(Places, OpenBordersAreToldByTheVerticesOfTheCaller) {
       << message;
 }
 
-TEST(Places, PointsOutsideAreToldByTheVerticesOfTheCaller) {
+TEST(Places, PointsOutsideNameTheVerticesOfTheCaller) {
   Surface s = split::soup(box());
   s.vertices.push_back({5, 5, 5});
   s.vertices.push_back({5, 5, 5});
@@ -285,7 +285,7 @@ TEST(PlacesInCheck, OneVertexForEachIsWrong) {
 
 TEST(PlacesInCheck, FindingsNameTheSurfacesOwnVertices) {
   Case c = split_case();
-  c.surface.vertices.insert(c.surface.vertices.begin(), c.surface.vertices[0]);  // unused, in front
+  c.surface.vertices.insert(c.surface.vertices.begin(), c.surface.vertices[0]);  // unused, first
   for (Triangle& f : c.surface.facets)
     for (Index& v : f) ++v;
   EXPECT_EQ(check_cases::broken(c), check_cases::Names{});
@@ -315,7 +315,7 @@ TEST(PlacesInCheck, NonFiniteVerticesInUseAreMalformed) {
 
 // --- volumes
 
-TEST(Places, VerticesOfVolumesStayAsTheyAre) {
+TEST(Places, VerticesOfVolumesDoNotChange) {
   // Two tetrahedra that touch in a place, with a vertex each.
   Volume volume;
   volume.vertices = {{0, 0, 0}, {1, 0, 0},  {0, 1, 0},  {0, 0, 1},

@@ -1,4 +1,4 @@
-// Polygons of files that are not convex, that touch themselves or have holes, and facets of several polygons.
+// Non-convex polygons in files, polygons that touch themselves or have holes, and facets of several polygons.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ class Polygons : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Twice the area seen along z; every triangle must turn left.
+/// Twice the area seen along z; every triangle must be counterclockwise.
 double area_of(const Surface& s) {
   double sum = 0;
   for (const Triangle& t : s.facets) {
@@ -73,7 +73,7 @@ std::set<std::array<Index, 3>> set_of(const std::vector<Triangle>& triangles) {
 const std::vector<Point> kComb{{0, 0, 0}, {6, 0, 0}, {6, 3, 0}, {5, 3, 0}, {5, 1, 0}, {4, 1, 0}, {4, 3, 0},
                                {3, 3, 0}, {3, 1, 0}, {2, 1, 0}, {2, 3, 0}, {0, 3, 0}, {0, 1, 0}};
 
-TEST_F(Polygons, ConcaveOnesAreTheSameTrianglesWhateverCornerComesFirst) {
+TEST_F(Polygons, ConcaveOnesHaveTheSameTrianglesWhateverCornerComesFirst) {
   std::vector<Index> corners(kComb.size());
   for (Index i = 0; i < corners.size(); ++i) corners[i] = i;
   const Surface first = read(off_of(kComb, corners), "a.off");
@@ -87,7 +87,7 @@ TEST_F(Polygons, ConcaveOnesAreTheSameTrianglesWhateverCornerComesFirst) {
   }
 }
 
-TEST_F(Polygons, TurnAsTheyAreGiven) {
+TEST_F(Polygons, KeepTheirOrientation) {
   std::vector<Index> corners;
   for (auto i = static_cast<Index>(kComb.size()); i-- > 0;) corners.push_back(i);
   Surface s = read(off_of(kComb, corners), "a.off");
@@ -96,7 +96,7 @@ TEST_F(Polygons, TurnAsTheyAreGiven) {
 }
 
 TEST_F(Polygons, LieInAnyPlaneAndAtAnyScale) {
-  // Planes of exact doubles that the axes do not span, and one on which x and y alone are a line.
+  // Oblique planes of exact doubles, and one whose projection along z is a line.
   const auto lifted = [](double scale, auto&& place) {
     std::vector<Point> points;
     for (const Point& p : kComb) {
@@ -138,7 +138,7 @@ TEST_F(Polygons, WithABridgeToAHoleAreARing) {
   const Surface s = read(off_of(ring, {0, 1, 2, 3, 0, 4, 5, 6, 7, 4}), "a.off");
   EXPECT_EQ(area_of(s), 2 * 12);
   EXPECT_EQ(s.facets.size(), 8u);
-  // The bridge's ends may have vertices of their own at the same places.
+  // The bridge's ends may have separate vertices at the same places.
   std::vector<Point> doubled = ring;
   doubled.push_back(ring[0]);
   doubled.push_back(ring[4]);
@@ -151,16 +151,16 @@ TEST_F(Polygons, MayTouchThemselvesButNotCross) {
   EXPECT_EQ(error(off_of(points, {0, 1, 4, 3}), "a.off"),
             "line 8: a polygon of 4 corners that crosses or overlaps itself: its sides 2-3 and 4-1 (by "
             "corner) cross");
-  // An eight through a common corner winds round its parts in both directions.
+  // A figure of eight through a common corner winds round its parts in both directions.
   EXPECT_EQ(error(off_of(points, {0, 1, 2, 4, 3, 2}), "a.off"),
             "line 8: a polygon of 6 corners that crosses or overlaps itself");
-  // A fold outside, and a turn taken twice.
+  // A fold outside, and a double loop.
   EXPECT_NE(error(off_of(points, {0, 1, 2, 3, 2}), "a.off"), "read");
   EXPECT_NE(error(off_of(points, {0, 1, 5, 0, 1, 5}), "a.off"), "read");
   EXPECT_NE(error(off_of(points, {0, 2, 3, 0, 2, 3}), "a.off"), "read");
 }
 
-TEST_F(Polygons, ThatAreNotPlaneMustBeConvexOrTolerated) {
+TEST_F(Polygons, ThatAreNotPlaneMustBeConvexOrWithinTheTolerance) {
   const std::vector<Point> convex{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.25}, {0, 1, 0}};
   const Surface fan = read(off_of(convex, {0, 1, 2, 3}), "a.off");
   EXPECT_EQ(fan.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
@@ -184,7 +184,7 @@ TEST_F(Polygons, ThatAreNotPlaneMustBeConvexOrTolerated) {
     EXPECT_THROW(static_cast<void>(read(file, "a.off", tolerance)), std::invalid_argument);
 }
 
-// As programs write them that print six digits, or numbers of single precision.
+// As written by programs that print six digits, or numbers of single precision.
 TEST_F(Polygons, RoundingToSixDigitsOrSinglePrecisionNeedsNoTolerance) {
   const double c = std::cos(0.3), s = std::sin(0.3), d = std::cos(1.1), e = std::sin(1.1);
   std::vector<Point> single;
@@ -203,19 +203,19 @@ TEST_F(Polygons, RoundingToSixDigitsOrSinglePrecisionNeedsNoTolerance) {
   for (const std::string& file : {off_of(single, corners), six + "13 0 1 2 3 4 5 6 7 8 9 10 11 12\n"}) {
     const Surface read_back = read(file, "a.off");
     EXPECT_EQ(read_back.facets.size(), kComb.size() - 2);
-    ASSERT_EQ(read_back.remarks.size(), 1u);  // and told
+    ASSERT_EQ(read_back.remarks.size(), 1u);  // and reported
     EXPECT_NE(read_back.remarks[0].message.find("from the mean plane"), std::string::npos);
   }
 }
 
-// Seen along an axis, two corners of such a polygon may fall together.
+// Seen along an axis, two corners of such a polygon may coincide.
 TEST_F(Polygons, NearlyPlaneButFoldedIsRefused) {
   const std::vector<Point> points{{0, 0, 0}, {2, 0, 0}, {2, 0, 1e-6}, {1, 0, 2e-6}, {0, 2, 0}};
   EXPECT_NE(error(off_of(points, {0, 1, 2, 3, 4}), "a.off"), "read");
 }
 
 TEST_F(Polygons, RoundingAloneNeedsNoTolerance) {
-  // Turned by angles that no doubles hold.
+  // Rotated by angles that are not doubles.
   const double c = std::cos(0.3), s = std::sin(0.3), d = std::cos(1.1), e = std::sin(1.1);
   std::vector<Point> points;
   for (const Point& p : kComb) {

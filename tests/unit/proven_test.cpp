@@ -1,4 +1,4 @@
-// What an exact search has found to fit together is known wherever it comes up again.
+// Facets that an exact search found to fit together are recognised when they occur again.
 #include "repair/proven.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using Flags = std::vector<std::uint8_t>;
 
-/// The sides of a box, of which the first does not fit.
+/// The sides of a box; the first does not fit.
 State searched() {
   const Surface box = small::open_box();
   State state = state_of(box.view());
@@ -21,7 +21,7 @@ State searched() {
   return state;
 }
 
-TEST(Proven, TellsFacetsByTheirPlaces) {
+TEST(Proven, RecognisesFacetsByTheirPlaces) {
   const State before = searched();
   State state = before;
   state.known.clear();
@@ -35,7 +35,7 @@ TEST(Proven, TellsFacetsByTheirPlaces) {
   EXPECT_FALSE(state.knows_vertices);
 }
 
-TEST(Proven, DoesNotTellFacetsThatAreThereTwiceOrMoved) {
+TEST(Proven, DoesNotRecogniseFacetsThatOccurTwiceOrMoved) {
   const State before = searched();
   State state = before;
   state.known.clear();
@@ -50,7 +50,7 @@ TEST(Proven, DoesNotTellFacetsThatAreThereTwiceOrMoved) {
   EXPECT_EQ(state.known, expected);
 }
 
-TEST(Proven, LeavesAStateThatKnowsMoreAsItIs) {
+TEST(Proven, DoesNotChangeAStateThatKnowsMore) {
   const State before = searched();
   State state = before;
   state.known.assign(state.facets.size(), 1);

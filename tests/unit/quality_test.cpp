@@ -71,15 +71,15 @@ TEST(Quality, CornersThatShareADouble) {
   EXPECT_EQ(std::accumulate(q.dihedrals.begin(), q.dihedrals.end(), std::size_t{0}), 6u);
 }
 
-// A sliver far from the origin, of height h over a plane that no axis helps with: its terms cancel, and plain
-// floating point has no digit of its volume.
+// A sliver far from the origin, of height h over an oblique plane: its terms cancel, and plain floating point
+// has no correct digit of its volume.
 TEST(Quality, SliversKeepTheirDigits) {
   const double far = 0x1p20;
   const double ulp = 0x1p-32;
   const Point a{far, far, far};
   const Point b{far + 1, far + 2, far + 3};
   const Point c{far + 2, far + 1, far + 5};
-  // a + (b - a) / 2 + (c - a) / 4 lies in the plane; one step off it along x.
+  // a + (b - a) / 2 + (c - a) / 4 lies in the plane; d is one step off it along x.
   const Point d{far + 1 + ulp, far + 1.25, far + 2.75};
   // det(b-a, c-a, d-a) = ulp * (2 * 5 - 3 * 1).
   const double six_volumes = 7 * ulp;
@@ -97,7 +97,7 @@ TEST(Quality, SliversKeepTheirDigits) {
 }
 
 // From regular to flat, with the fourth corner over the middle, over an edge and over a corner, and needles.
-TEST(Quality, BelowALimitIsTheSame) {
+TEST(Quality, BelowALimitAgrees) {
   std::mt19937_64 random(3);
   const auto any = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   int told = 0, withheld = 0;

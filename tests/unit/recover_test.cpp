@@ -1,4 +1,4 @@
-// Flips one at a time: edge removal, what pierces what, recovery of single constraints, undoing.
+// Single flips: edge removal, piercing, recovery of single constraints, undoing.
 #include "recover/recover.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ Recovered recover(const std::vector<Point>& points, const std::vector<Triangle>&
   return run;
 }
 
-// Prefers triangulations without forbidden diagonals and counts what it was asked.
+// Prefers triangulations without forbidden diagonals and counts the calls.
 struct CountDiagonals {
   using Cost = int;
   std::vector<std::array<std::size_t, 2>> forbidden;
@@ -89,7 +89,7 @@ TEST(LinkTriangulation, AvoidsForbiddenDiagonals) {
   for (const LinkTriangle& t : triangles) EXPECT_EQ(std::count(t.begin(), t.end(), 4), 1);
 }
 
-TEST(LinkTriangulation, CountsWhatCannotBeAvoided) {
+TEST(LinkTriangulation, CountsForbiddenDiagonalsThatCannotBeAvoided) {
   CountDiagonals objective{{{0, 2}, {1, 3}}};
   LinkTriangulation<int> triangulation;
   EXPECT_EQ(triangulation.find(4, objective), 1);
@@ -101,13 +101,13 @@ struct Never : CountDiagonals {
   }
 };
 
-TEST(LinkTriangulation, FindsNothingWhereNothingIs) {
+TEST(LinkTriangulation, FindsNothingIfThereIsNothing) {
   Never objective;
   LinkTriangulation<int> triangulation;
   EXPECT_EQ(triangulation.find(5, objective), std::nullopt);
 }
 
-TEST(EdgeShell, TurnsPositivelyAndStopsAtTheHull) {
+TEST(EdgeShell, GoesRoundCounterclockwiseAndStopsAtTheHull) {
   TetMesh mesh = delaunay_of(spindle(7, 0.2));
   const Tet t = find_edge(mesh, 0, 1);
   ASSERT_NE(t, kNone);
@@ -127,8 +127,8 @@ TEST(EdgeShell, TurnsPositivelyAndStopsAtTheHull) {
   EXPECT_FALSE(gather_shell(mesh, s, corner, corner + 1, shell));
 }
 
-// Neither a segment nor a facet finds a cost among vertices that it is said not to meet.
-TEST(Target, CostsNothingWhereItMayNotBeMet) {
+// Neither a segment nor a facet has a cost among vertices that are marked as disjoint from it.
+TEST(Target, CostsNothingWhereItCannotBeMet) {
   std::mt19937_64 random(7);
   std::vector<Point> points;
   for (int k = 0; k < 60; ++k)
@@ -200,9 +200,9 @@ TEST(Recover, SegmentThroughAnEdge) {
   EXPECT_EQ(run.standing.missing_segments(), 0u);
 }
 
-// The prism of Schönhardt, turned past the point where it can be filled: some facet or segment must stay
-// missing, what stands is protected, and nothing breaks.
-TEST(Recover, LeavesWhatHasNoSolution) {
+// Schönhardt's prism, twisted too far to be filled: some facet or segment must stay missing, standing
+// constraints are protected, and nothing breaks.
+TEST(Recover, LeavesConstraintsWithoutASolution) {
   std::vector<Point> points;
   for (int k = 0; k < 6; ++k) {
     const double angle = 3.14159265358979 / 180 * (120. * k + (k < 3 ? 0 : 30));
@@ -234,7 +234,7 @@ TEST(Piercing, AgreesWithAnExhaustiveSearch) {
   std::uniform_real_distribution<double> u(-1, 1);
   std::vector<Point> points;
   for (int k = 0; k < 60; ++k) points.push_back({u(random), u(random), u(random)});
-  // A grid within, so that segments cross edges, too.
+  // A grid inside, so that segments cross edges, too.
   for (int k = 0; k < 27; ++k)
     points.push_back({0.25 * (k % 3 - 1), 0.25 * (k / 3 % 3 - 1), 0.25 * (k / 9 - 1)});
   TetMesh mesh = delaunay_of(points);
@@ -292,7 +292,7 @@ std::size_t count_segment_bits(const TetMesh& mesh) {
   return count;
 }
 
-TEST(FacetCavities, RecoverWhatHundredsOfEdgesPierce) {
+TEST(FacetCavities, RecoverAFacetThatHundredsOfEdgesPierce) {
   const Triangle facet{0, 1, 2};
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Recovered run = recover(clouds_round_a_triangle(600, seed), {facet}, {});
@@ -341,7 +341,7 @@ TEST(FacetCavities, NameVerticesInTheFacet) {
   EXPECT_EQ(find_fault(run.mesh), "");
 }
 
-// A vertex a hair from where the doubles nearest to it are, which may be those of another vertex.
+// A vertex very close to its nearest doubles, which may be those of another vertex.
 Vertex add_beside(TetMesh& mesh, const Point& p) {
   exact::ExactPoint e = exact::lift(p.data());
   for (exact::Dyadic& x : e.c) x += exact::Dyadic(1).scaled(-120);
@@ -374,7 +374,7 @@ TEST(InsertVertex, NotOutsideNorOnTheHull) {
   }
 }
 
-// Vertices that no doubles hold close above and below the facet, some with the doubles of others.
+// Vertices that are not doubles, close above and below the facet, some with the nearest doubles of others.
 TEST(FacetCavities, HoldVerticesWithoutDoubles) {
   const Triangle facet{0, 1, 2};
   for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -396,18 +396,18 @@ TEST(FacetCavities, HoldVerticesWithoutDoubles) {
   }
 }
 
-TEST(FacetCavities, LeaveTheMeshAsItWasWhenTheyGiveUp) {
+TEST(FacetCavities, RestoreTheMeshIfTheyGiveUp) {
   const Triangle facet{0, 1, 2};
   Recovered run = recover(clouds_round_a_triangle(600, 2), {facet}, {});
   FacetCavities cavities(run.mesh, 1);
-  EXPECT_FALSE(cavities.recover({0, 1, 3}, [] {})) << "its sides are no edges";
+  EXPECT_FALSE(cavities.recover({0, 1, 3}, [] {})) << "its sides are not edges";
   EXPECT_THROW(cavities.recover(facet, [] { throw std::runtime_error("stop"); }), std::runtime_error);
   EXPECT_EQ(find_fault(run.mesh), "");
   EXPECT_EQ(find_face(run.mesh, 0, 1, 2), kNone);
   EXPECT_TRUE(cavities.recover(facet, [] {}));
 }
 
-TEST(TriedEdges, AnEdgeIsTriedAgainWithMoreLevelsOnly) {
+TEST(TriedEdges, AnEdgeIsTriedAgainOnlyWithMoreLevels) {
   TriedEdges tried;
   EXPECT_TRUE(tried.add(3, 7, 2));
   EXPECT_FALSE(tried.add(7, 3, 2)) << "the same edge";

@@ -1,5 +1,5 @@
-// What `repair` promises, checked on small surfaces that once broke it: found at random, and made as small as
-// they are.
+// The promises of `repair`, checked on small surfaces that once broke them: found by random search, then
+// reduced.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -31,8 +31,8 @@ Surface surface_of(std::vector<Point> vertices, std::vector<Triangle> facets) {
   return surface;
 }
 
-// A needle through a triangle: both points where its sides go through stand at the same doubles, so that what
-// is beyond is a line.
+// A needle through a triangle: both points where its sides pass through it have the same doubles, so the part
+// beyond is a line.
 TEST(RepairPromise, TheTipOfANeedleStays) {
   EXPECT_EQ(broken(surface_of({{-0.042760119712698219, 0.81403626276529684, -0.84924679661313152},
                                {-0.16722509948979833, -0.92416943101496107, -0.93303243102019351},
@@ -79,8 +79,8 @@ void add_open_box(Surface& surface, const Point& low, const Point& high) {
   surface.facets.erase(side, side + 2);
 }
 
-// A union takes fillings, or a part of one, and moves what comes behind.
-TEST(RepairPromise, FillingsThatAUnionLeavesAreToldByTheirNumbers) {
+// A union drops fillings, or a part of one, and renumbers those after them.
+TEST(RepairPromise, FillingsLeftByAUnionHaveCorrectNumbers) {
   RepairOptions options;
   options.unite = true;
   options.fill_holes = 100;
@@ -114,8 +114,8 @@ TEST(RepairPromise, FillingsThatAUnionLeavesAreToldByTheirNumbers) {
   EXPECT_EQ(united.filled[0].border.size(), 3u);
 }
 
-// Sheets that are made one come first: how far that moved them counts in whatever begins again from there.
-TEST(RepairPromise, WhatJoiningMovedIsTold) {
+// Sheets are joined first: their displacement counts in all later attempts from there.
+TEST(RepairPromise, DisplacementByJoiningIsReported) {
   RepairOptions options;
   options.join = 1.72e-10;
   EXPECT_EQ(broken(surface_of({{0.78230180167084773, 0.91277626271049739, 0.014196584253915925},
@@ -131,8 +131,8 @@ TEST(RepairPromise, WhatJoiningMovedIsTold) {
             "");
 }
 
-// Parts of facets became lines, so that what is left is further from them than anything was moved.
-TEST(RepairPromise, TheDistanceIsThatOfLostParts) {
+// Parts of facets became lines, so that the rest is further from them than anything was moved.
+TEST(RepairPromise, TheDistanceIncludesLostParts) {
   EXPECT_EQ(broken(surface_of({{0.87180994922371835, 0.29635286399472371, 0.45241517936327669},
                                {-0.8221116601398486, 0.21416576819116684, -0.026287277042707224},
                                {0.84751037095477622, 0.24307896107166482, 0.56091730994639688},
@@ -188,8 +188,8 @@ TEST(RepairPromise, TheDistanceIsThatOfLostParts) {
             "");
 }
 
-/// Boxes on a lattice, turned together, each of whose vertices is rounded to floats by itself: their planes
-/// are common but for these last bits.
+/// Boxes on a lattice, rotated together, with each vertex rounded to floats separately: their planes coincide
+/// up to these last bits.
 Surface turned_boxes(int count) {
   std::uint32_t random = 10;
   const auto next = [&](std::uint32_t below) {
@@ -219,7 +219,7 @@ Surface turned_boxes(int count) {
   return surface;
 }
 
-// No doubles were found: sheets that are 1e-7 apart cross in lines all over them.
+// No doubles were found: sheets 1e-7 apart have intersection lines all over them.
 TEST(RepairPromise, APileOfTurnedBoxesIsRepaired) { EXPECT_EQ(broken(turned_boxes(24)), ""); }
 
 }  // namespace

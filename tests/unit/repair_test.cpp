@@ -1,4 +1,4 @@
-// Repairs in the library: what does not depend on scale, and how far anything moves.
+// Repairs in the library: independence of scale, and displacements.
 #include "holdfast/repair.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST(Repair, IsTheSameAtAnyScale) {
   }
 }
 
-/// Between denormals there are fewer doubles than there would be at a larger scale.
+/// Among denormals there are fewer doubles than at a larger scale.
 TEST(Repair, IsValidInTheDoublesThatAreWritten) {
   for (const int by : {-1074 + 12, -1074 + 20, -1074 + 40}) {
     const Surface small = scaled(two_spheres(), by);
@@ -91,8 +91,8 @@ TEST(Repair, IsValidInTheDoublesThatAreWritten) {
   }
 }
 
-/// Half of the least double is none, so that the triangle round a sheet of such a size had no size.
-TEST(Repair, SheetsOfTheLeastDoublesBesideLargeTriangles) {
+/// Half of the least double is zero, so the triangle round a sheet of such a size had no size.
+TEST(Repair, SheetsOfTheLeastDoublesNextToLargeTriangles) {
   constexpr double d = 0x1p-1074;
   Surface surface;
   surface.vertices = {{0, 0, 0}, {d, 0, 0}, {d, d, 0}, {0, d, 0}, {1, 1, 1}, {1, 2, 1}, {2, 1, 1}};
@@ -115,7 +115,7 @@ TEST(Repair, VerticesThatAreNotFiniteHaveNoScale) {
   EXPECT_EQ(after.dropped.size(), 1U);
 }
 
-/// A sphere, and the same moved by the last bit.
+/// A sphere, and a copy moved by the last bit.
 Surface twice_but_for_rounding(int n) {
   const Surface one = sphere(n, {0, 0, 0}, 0);
   Surface other = one;
@@ -123,18 +123,18 @@ Surface twice_but_for_rounding(int n) {
   return together(one, other);
 }
 
-/// Only where much is in trouble that the vertices tell to be one: see below. They do not go back to their
-/// places: one sphere with the vertices of both would have sides of some last bits all over.
-TEST(Repair, WeldsAtOnceWhatIsThereTwiceButForRounding) {
+/// Only if much is in trouble and the vertices show that it is duplicated: see below. They do not return to
+/// their places: one sphere with the vertices of both would have sides of some last bits everywhere.
+TEST(Repair, WeldsADuplicateUpToRoundingAtOnce) {
   const Surface twice = twice_but_for_rounding(14);
   const RepairResult repaired = repair(twice);
   expect_valid(repaired);
   EXPECT_EQ(repaired.surface.facets.size(), twice.facets.size() / 2);
   EXPECT_EQ(repaired.report.rung, Rung::snapped);
-  EXPECT_LE(repaired.report.rounds, 2u);  // those before anything is welded
+  EXPECT_LE(repaired.report.rounds, 2u);  // before anything is welded
 }
 
-TEST(Repair, MovesNoVertexWhereItTakesNotLong) {
+TEST(Repair, MovesNoVertexIfThatIsFast) {
   const RepairResult repaired = repair(twice_but_for_rounding(5));
   expect_valid(repaired);
   EXPECT_TRUE(repaired.moved.empty());
@@ -150,8 +150,8 @@ TEST(Repair, ThreadsLeaveTheSameBits) {
   EXPECT_EQ(one.parents.all, three.parents.all);
 }
 
-TEST(Repair, SheetsThatLieInEachOtherButForRounding) {
-  // A copy that is turned by next to nothing crosses the original nearly everywhere.
+TEST(Repair, SheetsThatCoincideUpToRounding) {
+  // A copy that is rotated very little crosses the original nearly everywhere.
   for (const double turned : {0x1p-53, 0x1p-50, 0x1p-46}) {
     const RepairResult repaired = repair(together(sphere(5, {0, 0, 0}, 0), sphere(5, {0, 0, 0}, turned)));
     expect_valid(repaired);
@@ -203,8 +203,8 @@ Surface turned_cubes(std::initializer_list<std::pair<std::array<int, 3>, int>> c
   return turned_boxes(boxes, true);
 }
 
-/// What is in trouble is little, and all that joins it alone leaves more.
-TEST(Repair, SheetsAreJoinedAllOverWhereNothingElseHelps) {
+/// Little is in trouble, and joining only that leaves more.
+TEST(Repair, SheetsAreJoinedEverywhereIfNothingElseHelps) {
   const Surface cubes =
       turned_cubes({{{2, 3, 4}, 2}, {{4, 2, 3}, 2}, {{3, 1, 4}, 2}, {{4, 1, 4}, 1}, {{4, 2, 4}, 2}});
   const RepairResult repaired = repair(cubes.view());
@@ -213,9 +213,9 @@ TEST(Repair, SheetsAreJoinedAllOverWhereNothingElseHelps) {
   EXPECT_TRUE(repaired.moved.empty());
 }
 
-/// A side of a strut is in two planes, and in each of them others cross it, at places that are the same but
-/// for rounding. Turned, the lattice has as few new points as it has where it is not.
-TEST(Repair, SheetsLeadTheSidesThatTheyShareTogether) {
+/// A side of a strut is in two planes, and in each of them others cross it, at places that coincide up to
+/// rounding. The rotated lattice has as few new points as the original.
+TEST(Repair, SheetsRouteTheirCommonSidesTogether) {
   std::vector<std::pair<std::array<int, 3>, std::array<int, 3>>> struts;
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j)
@@ -239,9 +239,9 @@ TEST(Repair, SheetsLeadTheSidesThatTheyShareTogether) {
 }
 
 /// A line on which facets cross comes within 1e-11 of a side, and its points are 1e-10 apart: two of them
-/// pass each the side that ends in the other by less than a last bit. Led to and fro through them, the sides
-/// would only end in joining what is 10,000 last bits apart.
-TEST(Repair, SidesAreNotLedToAndFro) {
+/// each pass the side that ends in the other by less than a last bit. If the sides were routed back and forth
+/// through them, only joining points 10,000 last bits apart would end that.
+TEST(Repair, SidesAreNotMovedBackAndForth) {
   Surface surface;
   surface.vertices = {{0.058976713567972183, 0.018437961116433144, -1.0458670854568481},
                       {0.11398078501224518, -0.0111279571428895, -1.0432866811752319},
@@ -260,8 +260,8 @@ TEST(Repair, SidesAreNotLedToAndFro) {
 }
 
 /// Each of eight places has two vertices up to 1e-10 apart, and facets cross in all of these gaps. Bending
-/// sides does not part them.
-TEST(Repair, VerticesAreWeldedWhereNothingElseHelps) {
+/// sides does not separate them.
+TEST(Repair, VerticesAreWeldedIfNothingElseHelps) {
   Surface surface;
   surface.vertices = {{-0.16442138973640275, -0.91886507618287649, -0.32498593977578322},
                       {-0.16442138975797049, -0.9188650761824585, -0.32498593977578322},
@@ -297,7 +297,7 @@ TEST(Repair, DoublesNeedNoRounding) {
   EXPECT_EQ(repaired.max_displacement, 0);
 }
 
-TEST(Repair, ValidSurfacesComeOutAsTheyWere) {
+TEST(Repair, ValidSurfacesDoNotChange) {
   Surface valid = sphere(6, {0.1, 0.2, 0.3}, 0.7);
   small::add_box(valid, {3, 3, 3}, {4, 4, 4});
   const RepairResult repaired = repair(valid);
@@ -319,7 +319,7 @@ TEST(Repair, EveryFacetOfTheInputIsAParentOrListed) {
   EXPECT_EQ(named.size(), surface.facets.size());
 }
 
-TEST(Repair, WhatIsNotFiniteGoes) {
+TEST(Repair, FacetsThatAreNotFiniteAreDropped) {
   Surface surface = small::box({0, 0, 0}, {1, 1, 1});
   const std::size_t whole = surface.facets.size();
   small::add_triangle(surface, {2, 0, 0}, {3, 0, 0}, {2, 1, std::nan("")});
@@ -343,8 +343,8 @@ TEST(Repair, WhatIsNotFiniteGoes) {
   }
 }
 
-// A segment that begins at a crossing leaves a piece there that rounding makes a point.
-TEST(Repair, PiecesOfSegmentsThatBecomePointsGo) {
+// A segment that begins at a crossing has a piece there that rounding turns into a point.
+TEST(Repair, PiecesOfSegmentsThatBecomePointsAreDropped) {
   Surface surface;
   surface.vertices = {{1.0, 0.0, 0.3},
                       {1.09, 0.0, 0.3},

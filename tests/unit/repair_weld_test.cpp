@@ -1,4 +1,4 @@
-// Repairs that weld what lies within a distance of the caller.
+// Repairs that weld within a distance given by the caller.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +13,7 @@ void expect_valid(const RepairResult& repaired) {
   EXPECT_TRUE(diagnose(repaired.surface.view()).empty());
 }
 
-// Welding puts a vertex on a side of the first facet, so that rounding is given parts of it.
+// Welding puts a vertex on a side of the first facet, so that rounding gets parts of it.
 TEST(RepairWithWeld, PartsOfWeldedFacetsNameTheFacetsOfTheInput) {
   Surface surface;
   surface.vertices = {{0, 0, 0},  {4, 0, 0},  {0, 4, 0},   {2, -1e-9, 0}, {4, -3, 0},
@@ -36,8 +36,7 @@ TEST(RepairWithWeld, PartsOfWeldedFacetsNameTheFacetsOfTheInput) {
   }
 }
 
-// Two patches that cut the curve between them each in its own way: their sides pass each other between the
-// vertices.
+// Two patches that divide their common curve differently: their sides pass each other between the vertices.
 TEST(RepairWithWeld, FreeSidesThatPassWithinTheWeldShareAVertex) {
   Surface surface;
   surface.vertices = {{0, 0, 0}, {4, 0, 0}, {2, 0, 3}, {1, -1, -1e-9}, {3, 1, -1e-9}, {2, 0, -3}};

@@ -1,4 +1,4 @@
-// A mesh that recovery has made other than Delaunay becomes Delaunay again where constraints let it.
+// A mesh that is no longer Delaunay after recovery becomes Delaunay again, as far as constraints allow.
 #include "refine/restore_delaunay.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ std::size_t disturb(TetMesh& mesh, std::size_t swaps, std::uint64_t seed) {
   return done;
 }
 
-TEST(RestoreDelaunay, TakesBackFlips) {
+TEST(RestoreDelaunay, UndoesFlips) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     TetMesh mesh = delaunay_in_box(random_points(200, seed));
     ASSERT_EQ(disturb(mesh, 40, seed), 40u);
@@ -72,7 +72,7 @@ TEST(RestoreDelaunay, TakesBackFlips) {
   }
 }
 
-TEST(RestoreDelaunay, LeavesWhatIsDelaunay) {
+TEST(RestoreDelaunay, DoesNotChangeADelaunayMesh) {
   Volume volume(delaunay_in_box(random_points(200, 5)));
   EXPECT_EQ(volume.restore(), 0u);
 }

@@ -1,4 +1,4 @@
-// Vertices that became others, back in a valid surface.
+// Merged vertices return to a valid surface.
 #include "repair/restore.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 const Step kNoStep = [](double) {};
 
-/// An octahedron, and a vertex that was at some place and became its apex, vertex 0.
+/// An octahedron, and a vertex that was at some place and was merged with its apex, vertex 0.
 struct Octahedron {
   std::vector<Point> before{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
   State state;
@@ -23,7 +23,7 @@ struct Octahedron {
     state.vertices[6] = state.vertices[0];
   }
 
-  /// Puts it back. The number of facets then.
+  /// Restores it. Returns the number of facets.
   std::size_t restored(double most) {
     const double bent = restore(state, before, kNoStep, 1);
     EXPECT_LE(bent, most);
@@ -49,14 +49,15 @@ TEST(Restore, BesideASide) {
   EXPECT_EQ(Octahedron({2 * e, 0, 1 - e}).restored(8 * e), 10u);
 }
 
-/// No facet and no side is below a vertex that is further out, which becomes the apex.
+/// A vertex further out has no facet and no side below it, and becomes the apex.
 TEST(Restore, BeyondAnApex) {
   const double e = 0x1p-50;
   EXPECT_EQ(Octahedron({0, 0, 1 + e}).restored(8 * e), 10u);
   EXPECT_EQ(Octahedron({e / 4, 0, 1 + e}).restored(8 * e), 10u);
 }
 
-/// Of several at one place one is led through, and at the place of a vertex that is used nothing is needed.
+/// The surface is routed through one of several at one place; at the place of a used vertex nothing is
+/// needed.
 TEST(Restore, AtOnePlace) {
   const double e = 0x1p-50;
   Octahedron several({e, 2 * e, 1 - 4 * e});
@@ -70,7 +71,7 @@ TEST(Restore, AtOnePlace) {
   EXPECT_TRUE(trouble_of(several.state, kNoStep, 1).none());
 }
 
-/// A side that is a segment, too, is led through the vertex as one.
+/// A side that is also a segment is routed through the vertex as a segment.
 TEST(Restore, SegmentsFollowTheirSides) {
   const double e = 0x1p-50;
   Octahedron octahedron({2 * e, 0, 1 - 3 * e});
@@ -79,7 +80,8 @@ TEST(Restore, SegmentsFollowTheirSides) {
   octahedron.state.facets.clear();
   octahedron.state.facet_parents = {};
   restore(octahedron.state, octahedron.before, kNoStep, 1);
-  EXPECT_EQ(octahedron.state.vertices[6], octahedron.state.vertices[0]);  // a segment alone takes nothing in
+  EXPECT_EQ(octahedron.state.vertices[6],
+            octahedron.state.vertices[0]);  // a segment alone includes no vertex
   Octahedron with_facets({2 * e, 0, 1 - e});
   with_facets.state.segments.push_back({1, 0});
   with_facets.state.segment_parents.add(std::array<Index, 1>{0});

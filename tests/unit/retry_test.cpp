@@ -1,5 +1,4 @@
-// Where one random order leaves points without doubles, another may not: attempts follow one another in a
-// call.
+// One random order may leave points without doubles where another does not: a call makes several attempts.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,7 +59,7 @@ Run run_with(const Surface& surface, std::uint64_t seed) {
 
 // Which seeds need another attempt may change with the algorithms; that some do is what makes attempts worth
 // it.
-TEST(Retry, AnotherOrderSucceedsWhereOneHasNot) {
+TEST(Retry, AnotherOrderSucceedsAfterAFailure) {
   const Surface surface = scattered_on_a_coarse_grid();
   constexpr std::uint64_t kSeeds = 30;
   bool found = false;

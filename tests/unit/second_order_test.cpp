@@ -73,7 +73,7 @@ Volume one_element(const std::array<Point, 4>& corners) {
   return volume;
 }
 
-/// Most elements are decided by a bound in doubles; near to it all of them agree with the exact decision.
+/// A bound in doubles decides most elements; near the bound all of them agree with the exact decision.
 TEST(NotPositiveElements, AreThoseOfTheExactDecision) {
   numbers::Random random(5);
   std::size_t positive = 0, turned = 0;
@@ -81,7 +81,7 @@ TEST(NotPositiveElements, AreThoseOfTheExactDecision) {
     std::array<Point, 4> corners{};
     for (Point& p : corners)
       for (double& x : p) x = 1 + static_cast<double>(numbers::below(1 << 20, random)) * 0x1p-20;
-    // The last one is some last bits above the plane of the others.
+    // The last vertex is some last bits above the plane of the others.
     const double s = static_cast<double>(numbers::below(1 << 10, random)) * 0x1p-11;
     for (std::size_t k = 0; k < 3; ++k)
       corners[3][k] = corners[0][k] + s * (corners[1][k] - corners[0][k]) +
@@ -218,8 +218,8 @@ TEST(CurvedNodes, BeyondTheToleranceStayStraight) {
   EXPECT_EQ(result.volume.mid_nodes.points, before.points);
 }
 
-// A smooth surface that lies as deep as the element is high would turn it inside out.
-TEST(CurvedNodes, GoBackWhereAnElementWouldBeTurned) {
+// A smooth surface as deep as the height of the element would invert it.
+TEST(CurvedNodes, GoBackIfAnElementWouldBeInverted) {
   Volume volume;
   volume.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0.01}};
   volume.tetrahedra = {{0, 1, 2, 3}};
@@ -305,7 +305,7 @@ TEST_F(CheckSecondOrder, FindsNodesSwappedDoubledMissingAndUnused) {
   EXPECT_FALSE(holds(RuleKind::mid_nodes_placed));
 }
 
-TEST_F(CheckSecondOrder, FindsAnElementThatIsTurned) {
+TEST_F(CheckSecondOrder, FindsAnInvertedElement) {
   const Index n = volume_.mid_nodes.facets[0][0] - static_cast<Index>(volume_.vertices.size());
   volume_.mid_nodes.points[n] = {0.5, 0.5, 0.5};
   EXPECT_FALSE(holds(RuleKind::jacobians_positive));

@@ -1,4 +1,4 @@
-// What lies too near to each other is joined by bending: how much may come of it.
+// Elements too close to each other are joined by bending: limits of the number of new facets.
 #include "repair/settle.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::size_t facets_settled(State state, std::size_t most, Work work = {}) {
   return state.facets.size();
 }
 
-TEST(Settle, EndsWhereTooManyFacetsComeOfIt) {
+TEST(Settle, EndsIfThereAreTooManyNewFacets) {
   const State state = needles(12);
   const std::size_t without_limit = facets_settled(state, SIZE_MAX), most = 2 * state.facets.size();
   ASSERT_GT(without_limit, 2 * most);
@@ -41,9 +41,9 @@ TEST(Settle, EndsWhenItsWorkIsSpent) {
   EXPECT_LT(facets_settled(state, SIZE_MAX, {1000}), facets_settled(state, SIZE_MAX) / 2);
 }
 
-/// Two vertices that are next to each other, each beside the side from the first one to the other: segments
-/// there may be led through one as well as through the other.
-TEST(Settle, SegmentsAreNotLedToAndFro) {
+/// Two adjacent vertices, each next to the side from the first one to the other: segments there may be routed
+/// through either.
+TEST(Settle, SegmentsAreNotMovedBackAndForth) {
   constexpr Index kSegments = 20;
   State state = state_of({{}, {}, {}, {}, {}});
   state.vertices = {{0, 0, 0}, {10, 1e-9, 0}, {10, -1e-9, 0}, {20, 0, 1}};

@@ -1,4 +1,4 @@
-// Sides that several sheets lead through vertices of their own.
+// Sides that several sheets route through their own vertices.
 #include "repair/shared_sides.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(SharedSides, ChainsFollowEachOtherAlongTheSide) {
   EXPECT_FALSE(on.sides.has_united());
 }
 
-TEST(SharedSides, WhatIsNearIsOne) {
+TEST(SharedSides, NearVerticesAreMerged) {
   SharedSide on;
   const Index a = on.put(2), b = on.put(2 + 0x1p-12), c = on.put(7);
   on.sides.add(0, 1, Indices{a});
@@ -46,7 +46,7 @@ TEST(SharedSides, WhatIsNearIsOne) {
   EXPECT_EQ(on.sides.chain(a, 1), Indices{c});
 }
 
-/// Two sides that run along each other have parts in common, which only one of them is led on in.
+/// Two sides along each other have common parts, where only one of them is routed further.
 TEST(SharedSides, PartsOfSeveralSides) {
   SharedSide on;
   const Index a = on.put(2), b = on.put(6), c = on.put(4);

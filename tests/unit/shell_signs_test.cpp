@@ -1,4 +1,4 @@
-// Signs and costs among the vertices of a shell: those of the mesh, however they are computed.
+// Signs and costs among the vertices of a shell agree with those of the mesh, however they are computed.
 #include "recover/shell_signs.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(ShellSigns, AreThoseOfTheMesh) {
   }
 }
 
-// Floating point alone would take such a vertex for the double next to it.
+// Floating point alone would replace such a vertex by the double next to it.
 TEST(ShellSigns, AreThoseOfExactVertices) {
   TetMesh mesh = slivers(0, 4);
   const exact::Dyadic tiny(1, -90);

@@ -1,4 +1,4 @@
-// Small polyhedra are filled with tetrahedra where an exhaustive search fills them.
+// Small polyhedra are filled with tetrahedra exactly if an exhaustive search fills them.
 #include <gtest/gtest.h>
 
 #include "hard_surfaces.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;
 
-// The ball of the origin among n points of the unit sphere, each then moved to a radius of its own.
+// The ball of the origin among n points of the unit sphere, each moved to a different radius.
 Polyhedron star(int n, double least_radius, Random& random) {
   std::normal_distribution<double> normal;
   Polyhedron out;
@@ -37,7 +37,7 @@ void expect_fills(const Polyhedron& p, const std::vector<TetMesh::Corners>& tets
   EXPECT_EQ(testing::volume_of(p.mesh, tets), volume_of(p));
 }
 
-// Whether any positive tetrahedra fill the polyhedron: tries all, and stops at the polyhedron's volume alone.
+// Whether any positive tetrahedra fill the polyhedron: tries all, and stops only at the polyhedron's volume.
 bool can_be_filled(const Polyhedron& p, std::set<FaceKey> open, double room) {
   if (open.empty()) return true;
   const FaceKey f = *open.begin();
@@ -57,7 +57,7 @@ bool can_be_filled(const Polyhedron& p, std::set<FaceKey> open, double room) {
 
 constexpr PolyhedronOptions kExhaustive{.most_vertices = 31, .most_nodes = 1'000'000};
 
-TEST(SmallPolyhedron, SchoenhardtsIsFilledWhereItIsConvexAndNowhereElse) {
+TEST(SmallPolyhedron, SchoenhardtsIsFilledOnlyIfItIsConvex) {
   for (const double height : {0.1, 1.0, 7.0})
     for (const double part : {1e-9, 1e-3, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
       const Polyhedron bent_in = twisted_prism(part * kMostTwist, height);
@@ -100,7 +100,7 @@ TEST(SmallPolyhedron, AgreesWithAnExhaustiveSearch) {
   EXPECT_GT(unfillable, 100);
 }
 
-// The ball of the origin among the corners of a cube and some middles of its edges and faces.
+// The ball of the origin among the corners of a cube and some midpoints of its edges and faces.
 Polyhedron in_a_cube(int middles, Random& random) {
   std::vector<Point> points, others;
   for (int k = 0; k < 27; ++k) {
@@ -118,7 +118,7 @@ Polyhedron in_a_cube(int middles, Random& random) {
   return out;
 }
 
-TEST(SmallPolyhedron, AgreesWithAnExhaustiveSearchWhereManyPointsAreOfOnePlane) {
+TEST(SmallPolyhedron, AgreesWithAnExhaustiveSearchIfManyPointsAreCoplanar) {
   Random random(4);
   for (int trial = 0; trial < 40; ++trial) {
     const Polyhedron p = in_a_cube(trial % 4, random);

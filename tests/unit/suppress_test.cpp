@@ -1,4 +1,4 @@
-// Suppression: what goes, what moves, what grows, each against exhaustive search; constraints never move.
+// Suppression: removal, moves and growth, each compared with exhaustive search; constraints never move.
 #include "suppress/suppress.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using namespace testing;
 
 // --- meshes with Steiner points
 
-// Off every double by a little, as the apexes of thin sectors are.
+// Slightly off every double, as the apexes of thin sectors are.
 void make_exact(TetMesh& mesh, Vertex p) {
   exact::ExactPoint x = mesh.exact_position(p);
   x.c[1] += exact::Dyadic(1, -70);
@@ -36,7 +36,7 @@ bool can_collapse(TetMesh& mesh, Vertex p) {
   return std::any_of(link.begin(), link.end(), [&](Vertex v) { return all_positive(mesh, cone(faces, v)); });
 }
 
-TEST(RemoveOrRecentre, DoesTheFirstThatCanBeDone) {
+TEST(RemoveOrRecentre, DoesTheFirstPossibleStep) {
   std::map<Fate, int> fates;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Scene s = scene(30, 40, 0.1 * static_cast<double>(seed), seed);
@@ -61,7 +61,7 @@ TEST(RemoveOrRecentre, DoesTheFirstThatCanBeDone) {
   EXPECT_GT(fates[Fate::moved], 5);
 }
 
-TEST(LowerDegree, TellsWhetherTheDegreeFell) {
+TEST(LowerDegree, ReportsWhetherTheDegreeFell) {
   int fell = 0, four = 0, refused = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Scene s = scene(30, 40, seed % 2 == 0 ? 1 : 0, seed);
@@ -104,7 +104,7 @@ TEST(Shake, ChangesTheMeshRoundAPointAndNothingElse) {
 
 // --- filling again
 
-// Runs an operation on the Steiner points of some scenes; where it fails, nothing may have changed.
+// Runs an operation on the Steiner points of some scenes; if it fails, nothing may have changed.
 void expect_all_or_nothing(const std::function<bool(Scene&, Vertex, Random&)>& operation) {
   int done = 0, failed = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -192,7 +192,7 @@ TEST(RoundWithNeighbours, NeverGrowsAcrossAFacet) {
   s.expect_kept();
 }
 
-// --- all of it
+// --- the whole stage
 
 SuppressStats suppress_all(Scene& s) {
   const Options options;
@@ -272,7 +272,7 @@ Vertex add_centre(Scene& prism) {
   return p;
 }
 
-TEST(IsNeeded, IsProvenOfSchoenhardtsPointAndOfNoneThatCanGo) {
+TEST(IsNeeded, IsProvenOfSchoenhardtsPointAndOfNoRemovableOne) {
   for (const double part : {0.1, 0.5, 0.9}) {
     Scene bent_in = enforced(twisted_prism(part * kMostTwist, 1));
     suppress_all(bent_in);
@@ -286,7 +286,7 @@ TEST(IsNeeded, IsProvenOfSchoenhardtsPointAndOfNoneThatCanGo) {
 }
 
 // A filling would have to keep a segment inside: then nothing is proven.
-TEST(IsNeeded, IsNotSaidWhereAConstraintStandsInside) {
+TEST(IsNeeded, IsNotProvenWithAConstraintInside) {
   Scene s = enforced(twisted_prism(0.5 * kMostTwist, 1));
   suppress_all(s);
   const Vertex p = s.steiner().at(0);
@@ -297,7 +297,7 @@ TEST(IsNeeded, IsNotSaidWhereAConstraintStandsInside) {
   EXPECT_FALSE(is_needed(s.mesh, p, s.first_free));
 }
 
-TEST(Suppress, StopsWhenToldToWithAValidMesh) {
+TEST(Suppress, CanBeStoppedAndLeavesAValidMesh) {
   Scene s = scene(40, 60, 0.5, 9);
   Options options;
   options.time_limit = 1e-9;

@@ -62,7 +62,7 @@ TEST(Defects, VerticesAtOnePlaceAreOne) {
   const Surface s = small::surface_of(
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -0.0, 0}, {1, 1, 0}, {-0.0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}});
   EXPECT_TRUE(diagnose(s).empty());
-  // In a volume they are a defect, told once and not of every neighbour.
+  // In a volume they are a defect, reported once and not for every neighbour.
   const std::vector<Defect> defects = find_defects(
       s.view(), SIZE_MAX, [](double) {}, 1, SamePlace::defect);
   ASSERT_EQ(defects.size(), 2u);
@@ -102,7 +102,7 @@ TEST(Defects, RepeatedFacet) {
   EXPECT_EQ(d.message, "triangles 0 and 1 have the same vertices 0, 1, 2: remove one of them");
 }
 
-TEST(Defects, TJunctionIsToldOnce) {
+TEST(Defects, TJunctionIsReportedOnce) {
   // Vertex 4 lies inside side 0-1 of two facets and is itself a corner of three others.
   const Surface s = small::surface_of(
       {{0, 0, 0}, {4, 0, 0}, {0, 0, 4}, {0, 0, -4}, {1, 0, 0}, {1, 2, 0}, {2, 2, 0}, {3, 2, 1}, {3, 2, 2}},
@@ -190,7 +190,7 @@ TEST(Defects, FacetsOverlap) {
   EXPECT_NEAR(d.where[0][1], 0, 1e-15);
 }
 
-TEST(Defects, PlacesAreRightWhereFloatingPointIsLost) {
+TEST(Defects, PlacesAreRightWhereFloatingPointFails) {
   // Two needles that cross at an angle of 1e-12, far from the origin: the crossing is at a third of each.
   const double far = 0x1p30;
   const Surface s =

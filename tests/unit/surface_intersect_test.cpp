@@ -1,5 +1,5 @@
 // Exact tests of two simplices: named cases, one for each way in which interiors meet or just do not, at
-// scales where floating point has nothing to say.
+// scales where floating point decides nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

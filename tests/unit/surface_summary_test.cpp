@@ -45,9 +45,9 @@ TEST(Enclosed, AWallWithAHoleDividesNothing) {
   EXPECT_EQ(enclosed(surface), 1u);
 }
 
-// A house with two rooms (Bing): no border, every segment has two facets or three, and nothing is enclosed. A
+// A house with two rooms (Bing): no border, every segment has two or three facets, and nothing is enclosed. A
 // grid of unit squares; each room is entered through a chimney that passes the other room.
-TEST(Enclosed, AHouseThatHasNoBorderMayEncloseNothing) {
+TEST(Enclosed, AHouseWithoutABorderMayEncloseNothing) {
   Surface surface;
   constexpr Index n = 8;
   const auto vertex = [&](Index x, Index y, Index z) { return (z * n + y) * n + x; };
@@ -147,7 +147,7 @@ TEST(Gaps, ALooseLidIsACrack) {
   EXPECT_EQ(find(summary, Cause::open_border)->count, 8u);
 }
 
-TEST(Gaps, AreMeasuredByTheEdgesNearby) {
+TEST(Gaps, AreRelativeToTheEdgesNearby) {
   for (const double scale : {1e-200, 1.0, 1e200}) {
     for (const bool close : {true, false}) {
       Surface surface = open_box();
@@ -164,7 +164,7 @@ TEST(Gaps, AreMeasuredByTheEdgesNearby) {
   }
 }
 
-TEST(Gaps, ANeedleIsNone) {
+TEST(Gaps, ANeedleIsNotAGap) {
   const std::vector<Point> points{{0, 0, 0}, {1, 0, 0}, {0.5, 1e-9, 0}, {0.5, 1, 0}};
   EXPECT_TRUE(summary_of(surface_of(points, {{0, 1, 2}})).gaps.empty());
   EXPECT_TRUE(summary_of(surface_of(points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}})).gaps.empty());

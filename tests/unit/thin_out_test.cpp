@@ -1,4 +1,4 @@
-// Points that do not pay go again: in which order, how many, and what becomes of the rest.
+// Points that do not pay are removed: in which order, how many, and the effect on the rest.
 #include "optimise/thin_out.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace holdfast {
 namespace {
 
-// Random points in the unit cube; the corners stand.
+// Random points in the unit cube; the corners stay.
 struct Cube {
   TetMesh mesh;
   std::vector<RegionId> region_of;
@@ -53,7 +53,7 @@ Found found(const ImprovedVolume& volume) {
 
 constexpr double kAnyCost = 1e9;
 
-TEST(Thinner, EndsWhereSoManyTetrahedraAreLeft) {
+TEST(Thinner, EndsAtTheGivenNumberOfTetrahedra) {
   Cube cube(300);
   ImprovedVolume volume(cube.data());
   Thinner thinner(volume, {}, [] {});
@@ -82,8 +82,8 @@ TEST(Thinner, LeavesAValidMesh) {
   }
 }
 
-// What goes at a cost of -1 takes more of what weighs with it than there are tetrahedra less.
-TEST(Thinner, TakesNoVertexThatCostsTooMuch) {
+// A removal at a cost of -1 reduces the weight by more than the number of removed tetrahedra.
+TEST(Thinner, RemovesNoVertexThatCostsTooMuch) {
   Cube cube(300);
   ImprovedVolume volume(cube.data());
   const Found before = found(volume);
@@ -133,7 +133,7 @@ double longest_edge_inside(const TetMesh& mesh, Vertex first_free) {
 }
 
 // Edges that were longer already may be as long again.
-TEST(Thinner, HeedsTheSizesThatTheUserAllows) {
+TEST(Thinner, RespectsTheSizesThatTheUserAllows) {
   constexpr double kSize = 0.3;
   Cube free(300), limited(300);
   free.sizes.assign(free.sizes.size(), 0.1);
@@ -150,7 +150,7 @@ TEST(Thinner, HeedsTheSizesThatTheUserAllows) {
   EXPECT_GT(limited.mesh.tet_count(), 2 * free.mesh.tet_count());
 }
 
-// One to four at a time, in space and in a metric; the last of the corners is turned round and not positive.
+// One to four at a time, in space and in a metric; the last one is inverted, so not positive.
 TEST(ImprovedVolume, EnergiesOfSeveralAreThoseOfEach) {
   for (const bool in_metric : {false, true}) {
     Cube cube(50);
@@ -171,7 +171,7 @@ TEST(ImprovedVolume, EnergiesOfSeveralAreThoseOfEach) {
   }
 }
 
-TEST(Thinner, AsksForLeaveToGoOn) {
+TEST(Thinner, PollsWhileItRuns) {
   Cube cube(100);
   ImprovedVolume volume(cube.data());
   struct Enough {};

@@ -1,4 +1,4 @@
-// The undo log: what random changes did is taken back slot by slot, free slots and vertices included.
+// The undo log: random changes are undone slot by slot, including free slots and vertices.
 #include "mesh/undo_log.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing;
 
-constexpr Vertex kPoints = 60;  // all free; the corners of a box round them follow
+constexpr Vertex kPoints = 60;  // all free; the corners of a box round them come after these
 
 TetMesh some_mesh(std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -30,7 +30,7 @@ TetMesh some_mesh(std::uint64_t seed) {
   return delaunay_in_box(points, 4.0);
 }
 
-// Everything that later changes can depend on; free slots by the order in which they are handed out.
+// Everything that later changes can depend on; free slots by the order in which they are allocated.
 void expect_same(TetMesh x, TetMesh y) {
   ASSERT_EQ(x.slot_count(), y.slot_count());
   ASSERT_EQ(x.tet_count(), y.tet_count());
@@ -53,7 +53,7 @@ Vertex some_vertex(const TetMesh& mesh, std::mt19937_64& random) {
     if (const auto v = static_cast<Vertex>(random() % mesh.vertex_count()); mesh.in_mesh(v)) return v;
 }
 
-// Flips, vertices that come, move and go.
+// Flips, and vertices that are added, moved and removed.
 void change(TetMesh& mesh, std::mt19937_64& random, int times) {
   Flipper flipper(mesh, random);
   for (; times > 0; --times) {
@@ -111,7 +111,7 @@ TEST(UndoLog, MarksNest) {
   }
 }
 
-TEST(UndoLog, TellsWhatWasThereBefore) {
+TEST(UndoLog, ReportsTheOriginalTetrahedra) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     TetMesh mesh = some_mesh(seed);
     std::mt19937_64 random(seed);

@@ -1,4 +1,4 @@
-// What guides the smoothing of tangled meshes: the energy's gradient, the minimiser.
+// The smoothing of tangled meshes: the energy's gradient, the minimiser.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +64,7 @@ TEST(Lbfgs, FindsTheEndOfACurvedValley) {
   for (const double c : x) EXPECT_NEAR(c, 1, 1e-5);
 }
 
-TEST(Lbfgs, StaysWhereTheFunctionIsNotANumberFartherOut) {
+TEST(Lbfgs, StaysIfTheFunctionIsNotANumberFartherOut) {
   const auto function = [](std::span<const double> x, std::span<double> gradient) {
     gradient[0] = 1 - 1 / x[0];
     return x[0] - std::log(x[0]);

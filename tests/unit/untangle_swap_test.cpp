@@ -1,4 +1,4 @@
-// Untangling where vertices alone do not help: swaps keep a manifold, cavities are filled again.
+// Untangling if moving vertices does not suffice: swaps keep a manifold, cavities are filled again.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,9 +18,9 @@ namespace {
 
 using namespace testing;
 
-// Two tetrahedra on a triangle, of which the apexes see each other past it: no vertex is free, and the same
-// boundary has a mesh of three tetrahedra round the edge between the apexes, or the other way round.
-TEST(Untangle, SwapsWhereNoVertexMayMove) {
+// Two tetrahedra on a triangle whose apexes see each other past it: no vertex is free, and the same boundary
+// has a mesh of three tetrahedra round the edge between the apexes, or vice versa.
+TEST(Untangle, SwapsIfNoVertexMayMove) {
   // abc with d above and e below; e is displaced so that the edge de passes outside abc.
   Volume volume;
   volume.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, 1}, {0.5, 0.5, -1}};
@@ -39,9 +39,9 @@ TEST(Untangle, SwapsWhereNoVertexMayMove) {
   EXPECT_EQ(result.report.moved, 0u);
 }
 
-// Schönhardt's prism as three tetrahedra, which suit the prism before it is twisted: it cannot be meshed
+// Schönhardt's prism as three tetrahedra, which fill the prism before it is twisted: it cannot be meshed
 // without a new vertex.
-TEST(Untangle, AddsAVertexWhereNothingElseHelps) {
+TEST(Untangle, AddsAVertexIfNothingElseHelps) {
   const auto prism = [](double twist) {
     std::vector<Point> points;
     for (int k = 0; k < 6; ++k) {
@@ -80,7 +80,7 @@ int euler_of_link(const Tangle& tangle, Vertex v) {
   return static_cast<int>(vertices.size() + tangle.star(v).size()) - static_cast<int>(edges.size());
 }
 
-// How many tetrahedra hang together by faces with the first.
+// The number of tetrahedra connected with the first by faces.
 std::size_t reached(const Tangle& tangle) {
   std::set<Tet> met;
   std::vector<Tet> queue{tangle.star(0)[0]};
@@ -113,10 +113,10 @@ TEST(Untangle, SwapsKeepAManifold) {
   EXPECT_GT(swaps, 500u);
 }
 
-// A tetrahedron with a vertex inside, as four; they lie beside the grid that they belong to, and inside out.
+// A tetrahedron with a vertex inside, as four; they lie next to the grid that they belong to, inverted.
 // The boundary of all others, the cavity, is a valid surface and is seen from the right side everywhere, but
 // it bounds two parts of space: filled, the second would close the four off, with no boundary left.
-TEST(Untangle, ACavityDoesNotFallApart) {
+TEST(Untangle, ACavityStaysConnected) {
   Random random(14);
   Grid g = grid(3, 0, random);
   const auto n = static_cast<Index>(g.surface.vertices.size()), middle = n + 8;

@@ -1,4 +1,4 @@
-// Untangling: meshes tangled in many ways come out positive with their boundary as it was, or are refused.
+// Untangling: meshes tangled in many ways become positive with an unchanged boundary, or are refused.
 #include "holdfast/untangle.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing;
 
-TEST(Untangle, APositiveMeshComesOutAsItCame) {
+TEST(Untangle, APositiveMeshDoesNotChange) {
   Random random(1);
   const Grid g = grid(3, 0.2, random);
   const UntangleResult result = untangled(g.surface, g.volume);
@@ -149,7 +149,7 @@ TEST(Untangle, TetrahedraListedTheOtherWayRound) {
   untangled(g.surface, g.volume);
 }
 
-// Meshes that have hardly any free vertex: swaps and refilled cavities must do.
+// Meshes with hardly any free vertex: swaps and refilled cavities must suffice.
 TEST(Untangle, FilledSurfacesWhoseBoundaryMoves) {
   Random random(8);
   std::size_t swapped = 0, cavities = 0;
@@ -209,7 +209,7 @@ TEST(Untangle, SegmentsAndFixedVerticesStay) {
 TEST(Untangle, ABoundaryThatMeetsItselfIsRefused) {
   Random random(10);
   Grid g = grid(3, 0.1, random);
-  g.volume.vertices[0] = {2.5, 2.7, 4};  // a corner drawn through the opposite side
+  g.volume.vertices[0] = {2.5, 2.7, 4};  // a corner moved through the opposite side
   const UntangleResult result = untangle(g.volume);
   EXPECT_EQ(result.outcome, Outcome::invalid_input);
   ASSERT_FALSE(result.defects.empty());
@@ -220,8 +220,8 @@ TEST(Untangle, ABoundaryThatMeetsItselfIsRefused) {
   }
 }
 
-// The boundary is a valid surface, but no mesh has it for a boundary: a cavity outside of what it was in; a
-// box within another; a box turned inside out.
+// The boundary is a valid surface, but not the boundary of any mesh: a cavity outside of its part; a box
+// within another; a box turned inside out.
 TEST(Untangle, ABoundaryInTheWrongPlaceIsRefused) {
   Surface surface = small::nested(false);
   Options keep;
@@ -335,8 +335,8 @@ TEST(Untangle, TheSameResultTwice) {
 }
 
 TEST(Untangle, NoDoublesInside) {
-  // The polyhedron of docs/concepts.md, What cannot be guaranteed, with a vertex inside at first, far from the
-  // origin: no integer point is inside.
+  // The polyhedron of docs/concepts.md, What cannot be guaranteed, with a vertex inside at first, far from
+  // the origin: no integer point is inside.
   const Surface near = small::without_integer_points(0);
   const Result filled = mesh(near.view());
   ASSERT_EQ(filled.outcome, Outcome::done);

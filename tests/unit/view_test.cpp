@@ -1,4 +1,4 @@
-// Pages: foreign text stays text, the data can be read back, what is embedded is what is committed.
+// Pages: foreign text stays text, the data can be read back, and the embedded page is the committed one.
 #include "holdfast/view.h"
 
 #include <gtest/gtest.h>
@@ -47,18 +47,18 @@ TEST(ViewText, MarkupBecomesText) {
   EXPECT_EQ(view::json(std::string_view("a\"b\\c\nd")), "\"a\\\"b\\\\c\\nd\"");
 }
 
-TEST(ViewText, WhatIsNoUtf8IsReplaced) {
+TEST(ViewText, InvalidUtf8IsReplaced) {
   const std::string mark = "\xEF\xBF\xBD";
   EXPECT_EQ(view::clean("a\xFF"), "a" + mark);
   EXPECT_EQ(view::clean(std::string("\0\x1B", 2)), mark + mark);
   EXPECT_EQ(view::clean("\xC0\xAF"), mark + mark);             // overlong
   EXPECT_EQ(view::clean("\xED\xA0\x80"), mark + mark + mark);  // a surrogate
   EXPECT_EQ(view::clean("\xF4\x90\x80\x80"), mark + mark + mark + mark);
-  EXPECT_EQ(view::clean("\xE2\x82"), mark + mark);  // ends too soon
+  EXPECT_EQ(view::clean("\xE2\x82"), mark + mark);  // truncated
   EXPECT_EQ(view::clean("Schönhardt 😀"), "Schönhardt 😀");
 }
 
-TEST(ViewText, NumbersThatJsonDoesNotKnowAreNull) {
+TEST(ViewText, NumbersThatJsonCannotHoldAreNull) {
   EXPECT_EQ(view::json(0.1), "0.1");
   EXPECT_EQ(view::json(std::nan("")), "null");
   EXPECT_EQ(view::json(-std::numeric_limits<double>::infinity()), "null");
@@ -86,7 +86,7 @@ TEST(ViewPacked, ArraysStandInPlanes) {
                                24));
 }
 
-TEST(View, TheHeaderTellsTheArrays) {
+TEST(View, TheHeaderDescribesTheArrays) {
   const Volume volume = one_tetrahedron();
   Page page = page_of(volume);
   page.parts[0].name = "</script>\"";
@@ -102,7 +102,7 @@ TEST(View, TheHeaderTellsTheArrays) {
   EXPECT_EQ(bytes.size(), 4 + length + 8 * 12 + 4 * 4 + 4 + 4 * 12);
 }
 
-TEST(View, BeyondItsMostAPageHoldsTheMiddle) {
+TEST(View, ALargeVolumeIsReducedToItsMiddle) {
   Volume volume;
   for (int i = 0; i < 9; ++i) {
     const auto first = static_cast<Index>(volume.vertices.size());
@@ -152,7 +152,7 @@ TEST(View, ACancelledPageLeavesNoFile) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST(View, WhatIsEmbeddedIsWhatIsCommitted) {
+TEST(View, TheEmbeddedPageIsTheCommittedOne) {
   const std::filesystem::path source = HOLDFAST_SOURCE_DIR "/viewer/dist/viewer.html";
   std::ifstream file(source, std::ios::binary);
   ASSERT_TRUE(file) << source;

@@ -1,5 +1,5 @@
-// The size that is wanted at a point: near the least over all of the surface, and found without looking at
-// all of it.
+// The desired size at a point: close to the least over the whole surface, and found without examining all of
+// it.
 #include "divide/wanted_size.h"
 
 #include <gtest/gtest.h>
@@ -30,8 +30,7 @@ Surface pins(int count) {
 
 double least_at(const Surface& surface, const Point& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Point& v : surface.vertices)
-    least = std::min(least, kLength + kGradation * distance(v, p));
+  for (const Point& v : surface.vertices) least = std::min(least, kLength + kGradation * distance(v, p));
   return least;
 }
 
@@ -53,7 +52,7 @@ TEST(WantedSize, IsNearTheLeast) {
 }
 
 // All of the sphere is about as far from its middle.
-TEST(WantedSize, InTheMiddleOfABallDoesNotLookAtAllOfIt) {
+TEST(WantedSize, InTheMiddleOfABallDoesNotExamineAllOfIt) {
   const Surface surface = pins(40000);
   const WantedSize wanted(surface.view(), kGradation, {});
   double sum = 0;

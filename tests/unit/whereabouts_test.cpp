@@ -1,4 +1,4 @@
-// What the facets alone tell of where points lie.
+// Locations of points relative to the facets, without a mesh.
 #include "surface/whereabouts.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(Whereabouts, OfABox) {
   EXPECT_TRUE(find(box, {}).empty());
 }
 
-// Exactly on a slanted plane or one bit beside it.
+// Exactly on a slanted plane or one bit off it.
 TEST(Whereabouts, OfASlantedFacet) {
   Surface surface = small::box({-4, -4, -4}, {4, 4, 4});
   small::add_triangle(surface, {0, 0, 0}, {3, 0, 1}, {0, 3, 1});
@@ -72,7 +72,7 @@ TEST(Whereabouts, OfManyPointsAsOfEach) {
   }
 }
 
-// A cup of boxes: what is over its bottom is walled in on four sides, and open.
+// A cup of boxes: the space over its bottom has walls on four sides, but is open.
 Surface cup() {
   Surface cup = small::box({0, 0, 0}, {3, 3, 1});
   small::add_box(cup, {5, 0, 0}, {8, 1, 3});
@@ -85,7 +85,8 @@ TEST(Whereabouts, BetweenWallsIsOutside) {
             (std::vector{unbounded, bounded, bounded, unbounded}));
 }
 
-// Centroids of tetrahedra have equal names exactly if the mesh has them in one region. `keep box` has all.
+// Centroids of tetrahedra have equal names exactly if they are in one region of the mesh. `keep box` keeps
+// all.
 void expect_regions_of_mesh(const Surface& surface) {
   Options options;
   options.keep = Keep::box;
@@ -232,7 +233,7 @@ TEST(Whereabouts, SeedsBesideAMissingTriangle) {
   }
 }
 
-// Regions of a surface that crosses itself are none: its defects are what to mend.
+// A surface that crosses itself has no regions: its defects are reported.
 TEST(Whereabouts, DefectsComeBeforeSeeds) {
   Surface crossing = small::box();
   small::add_box(crossing, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5});
