@@ -1,11 +1,11 @@
-"""Two programs of holdfast beside each other: whether they make the same meshes, and how fast each is.
+"""Compares two builds of holdfast: whether they make the same meshes, and how fast each is.
 
     beside.py OLD NEW --corpus DIR [--count N] [--speed M] [--most-bytes B] [--options "--fill"]
 
 N surfaces of the folder of at most B bytes, evenly spread over its names, are meshed by both. A digest is that of the
-vertices, tetrahedra and regions in the .meshb file, whatever else the file holds and whichever of its versions it is.
+vertices, tetrahedra and regions in the .meshb file, whatever else the file holds and whatever its version.
 Then M of these surfaces that take NEW a tenth of a second or more are meshed five times by each, by turns; the figure
-is the median of the ratios new : old of processor time, of each surface and of them all.
+is the median of the ratios new : old of processor time, for each surface and for all together.
 """
 import argparse
 import hashlib
@@ -19,7 +19,7 @@ from pathlib import Path
 
 VERTICES, TETRAHEDRA, END = 4, 8, 54
 RUNS = 5
-SHORTEST = 0.1  # seconds; what is shorter is start and files
+SHORTEST = 0.1  # seconds; less is start-up and files
 
 
 def digest(data):

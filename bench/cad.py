@@ -1,9 +1,9 @@
-"""Tessellated CAD parts, which are full of needles: the second group of field.py, beside TetGen, Gmsh and Netgen.
+"""Tessellated CAD parts, which are full of needles: the second group of field.py, compared with TetGen, Gmsh and Netgen.
 
-The sample is fixed by a rule: the valid, closed surfaces of the corpus of more than 1,000 triangles whose names tell of CAD (CAD_NAMES), in
-the order of the SHA-256 of their names, the first of these. Holdfast runs with its default options and nothing else. Seconds are CPU
+The sample is fixed by a rule: the first of the valid, closed surfaces of the corpus of more than 1,000 triangles whose
+names indicate CAD (CAD_NAMES), in the order of the SHA-256 of their names. Holdfast runs with its default options. Seconds are CPU
 time of whole processes, files and all; Holdfast and TetGen take turns, and medians count. The others run once; each has --timeout seconds
-of processor time a surface. A peer's mesh counts where all of its elements are positive and its volume is Holdfast's to SAME_VOLUME.
+of processor time per surface. A peer's mesh counts if all of its elements are positive and its volume is Holdfast's to SAME_VOLUME.
 """
 import hashlib
 import statistics
@@ -22,7 +22,7 @@ PEERS = ("TetGen", "Gmsh HXT", "Gmsh Delaunay", "Netgen")
 EFFORTS = ("Holdfast fill", FAST, OURS, "Holdfast best")  # each no worse than the one before
 OPTIONS = {"Holdfast fill": ["--fill"], FAST: ["--quality", "fast"], OURS: [], "Holdfast best": ["--quality", "best"]}
 SAME_VOLUME = 1e-6  # of the volume
-SHARE = 0.9  # of the surfaces, of which the targets ask
+SHARE = 0.9  # of the surfaces, for the targets
 MOST_ELEMENTS = 1.3
 MOST_CPU = {OURS: 1.0, FAST: 0.5}
 
@@ -52,7 +52,7 @@ OF_HOLDFAST = ("cad", "cad efforts")
 
 
 class Figure(NamedTuple):
-    """What is compared with peers; less is better."""
+    """The figures that are compared with peers; less is better."""
     text: str
     of: object
 
@@ -75,7 +75,7 @@ def peers_of(rows):
 
 
 def is_worse(figure, row, other):
-    """Beyond what writing and measuring round."""
+    """Beyond the rounding of writing and measuring."""
     x, y = figure.of(row), figure.of(other)
     return x > y + 1e-6 * abs(y) + 1e-9
 
@@ -86,7 +86,7 @@ def holds(figure, rows):
 
 
 def elements_ratio(rows):
-    """Our number over the largest of those peers that have the least of some share; None without peers."""
+    """Ratio of our number to the largest of those peers that have the least of some share; None without peers."""
     peers = peers_of(rows).values()
     if not peers or not is_mesh(rows[OURS]):
         return None
@@ -109,7 +109,7 @@ def elements_target(results):
 
 
 def all_target(results):
-    """All that is asked for on nine of ten, on one and the same surface."""
+    """All conditions on the same surface, for nine of ten."""
     held = sum(all(holds(figure, rows) for figure in (*SHARES, LEAST_ANGLE)) and (elements_ratio(rows) or 0) <= MOST_ELEMENTS
                for rows in results.values())
     return Target("All of these (by number) on one and the same surface, on 9 of 10", f"on {held} of {len(results)}",

@@ -1,11 +1,11 @@
-"""What the constants of a stage (src/*/*tuning.h) are worth: a sample of a corpus meshed with other values of them.
+"""The effect of constants of a stage (src/*/*tuning.h): meshes a sample of a corpus with other values.
 
     constants.py CONSTANT=VALUE ... [--mode fill|field|noflips|untangle] [--corpus DIR] [--count N] [--build DIR]
 
-One row a value, beside the values as they stand: seconds of CPU, points added, the worst Q over what it was (geometric
+One row per value, and one for the current values: seconds of CPU, points added, ratio of the worst Q (geometric
 mean; how many surfaces are better and worse), elements below 10 degrees, surfaces without a mesh. With `untangle`, the
-inner vertices of half of each mesh are displaced first, and the row tells cavities that had to be refilled in place of points.
-The header is changed in place for each build and put back in the end, so it must be committed.
+inner vertices of half of each mesh are displaced first, and the row has refilled cavities instead of points.
+The header is changed in place for each build and restored at the end, so it must be committed.
 """
 import argparse
 import json
@@ -41,7 +41,7 @@ def run(command):
 
 
 def displace(path, seed):
-    """Half of the free vertices of a .mesh file, by a tenth of its size each way."""
+    """Displaces half of the free vertices of a .mesh file by a tenth of its size."""
     lines = path.read_text().split("\n")
     first = next(i for i, line in enumerate(lines) if line.strip() == "Vertices") + 2
     points = [[float(x) for x in line.split()[:3]] for line in lines[first:first + int(lines[first - 1])]]
@@ -58,7 +58,7 @@ def displace(path, seed):
 
 
 def measured(program, surface, mode, work):
-    """A row of figures of one mesh; nothing where there is none."""
+    """A row of figures of one mesh; empty without a mesh."""
     out, report = work / "out.mesh", work / "report.json"
     for path in (out, report):
         path.unlink(missing_ok=True)

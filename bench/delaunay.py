@@ -1,7 +1,7 @@
 """Delaunay alone: Holdfast, CGAL and TetGen on one thread, Holdfast and CGAL with TBB on two.
 
 Uniformly random points, the vertices of rippled tori (surfaces.py), and of the largest surface of the corpus; the seconds
-that a program takes for the triangulation, spatial sort included, as it tells them itself.
+that a program reports for the triangulation, including the spatial sort.
 """
 import json
 import re
@@ -28,7 +28,7 @@ def holdfast(program, node, folder, threads=1, memory=MEMORY):
 
 
 def peer(command, seconds, tetrahedra):
-    """The same of another program, which readies its memory itself; the last two are patterns of what it prints."""
+    """The same for another program, which prepares its memory itself; the last two are patterns of its output."""
     done = run(command)
     return {"seconds": float(re.search(seconds, done.output)[1]), "tetrahedra": int(re.search(tetrahedra, done.output)[1]),
             "peak": done.peak}

@@ -1,25 +1,26 @@
-"""Meshes to compute with, side by side: Holdfast, Gmsh (HXT, and Delaunay with optimisation), TetGen and Netgen.
+"""Meshes for computation, compared: Holdfast, Gmsh (HXT, and Delaunay with optimisation), TetGen and Netgen.
 
     field.py --build build/release --corpus DIR [--part good|cad|sizes|seeds] [--only NAME] [--cad-count N] [--sizes-count N]
              [--seeds-count N] [--again GROUP] [--output docs/field.md]
 
-There are four parts: surfaces of good triangles, as told here, tessellated CAD parts, as told in bench/cad.py, sizes far from the surface's, as
-told in bench/sizes.py, and other seeds without field points, as told in bench/seeds.py. Each writes its part of the document and leaves the others' as they are.
+There are four parts: surfaces of good triangles (below), tessellated CAD parts (bench/cad.py), sizes far from the
+surface's (bench/sizes.py), and other seeds without field points (bench/seeds.py). Each writes its part of the document
+and does not change the others.
 
 Every mesher gets the same triangles and keeps them: `holdfast mesh --no-growth --gradation 0.6` (sizes inside lie
-between those of the surface round, as Gmsh has them), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize,
+between those of the surrounding surface, as in Gmsh), `gmsh -3 -algo hxt`, `gmsh -3 -algo del3d` with Mesh.Optimize,
 `tetgen -pYq1.4`, and Netgen's GenerateVolumeMesh through bench/netgen_volume.py. One thread each. Seconds are
-wall-clock time of meshing as the program itself tells it, without reading and writing files (CPU time of TetGen and
-Netgen; Gmsh's would leave the system's out). The faster ones take turns, on memory that is at hand, and their medians
-count; the others run once. Angles are measured by one program, mesh_shape. A mesher has --timeout seconds of processor
-time a surface, which the table states. RING, of half a million triangles, is made here; only the faster meshers get it.
+wall-clock time of meshing as the program itself reports it, without reading and writing files (CPU time of TetGen and
+Netgen; Gmsh's excludes system time). The faster ones take turns, with memory made ready, and their medians count; the
+others run once. Angles are measured by one program, mesh_shape. A mesher may take --timeout seconds of processor time
+per surface, which the table states. RING, of half a million triangles, is made here; only the faster meshers get it.
 
 Then the whole of `holdfast mesh`, files and all, with its default options on one and on two threads: the least wall-clock
-seconds of some turns. (Memory is not made ready for these: the system goes on working at that for a while, on the second
+seconds of some turns. (Memory is not made ready for these: the system keeps working on that for a while, on the second
 thread's core.) Both must write the same file.
 
-Rows are kept in field.json in the build folder as soon as they are measured, so that an interrupted run goes on where it stopped.
-Those of another Holdfast, other surfaces or another time limit are measured anew; --again does that for a group. The table of
+Rows are kept in field.json in the build folder as soon as they are measured, so that an interrupted run can be continued.
+Those of another Holdfast, other surfaces or another time limit are measured again; --again does that for a group. The table of
 targets goes to field_targets.json there, for docs/benchmarks.md.
 """
 import argparse
@@ -73,7 +74,7 @@ def write_ring(path, rows=8334, columns=30):
 
 
 def spread_of_edges(surface):
-    """How far the sizes that a surface asks for differ: the 95th percentile of its triangles' sides over the 5th."""
+    """How much the sizes of a surface differ: the ratio of the 95th percentile of its triangles' sides to the 5th."""
     points, triangles = read_off(surface)
     points = [tuple(map(float, p[:3])) for p in points]
     corners = [[points[int(v)] for v in t] for t in triangles]
@@ -82,7 +83,7 @@ def spread_of_edges(surface):
 
 
 class Bench(Meshers):
-    """Sizes inside lie between those of the surface round, as Gmsh has them."""
+    """Sizes inside lie between those of the surrounding surface, as in Gmsh."""
 
     def lying_between(self, surface, *extra):
         return self.holdfast(surface, "--no-growth", "--gradation", "0.6", *extra)
@@ -128,7 +129,7 @@ class Bench(Meshers):
 
 
 GROUPS = {"side by side": Bench.faster, "once": Bench.slower, "on two threads": Bench.threads, "edges": Bench.edges} | cad.GROUPS | sizes.GROUPS | seeds.GROUPS
-OF_HOLDFAST = ("side by side", "on two threads", *cad.OF_HOLDFAST, *sizes.OF_HOLDFAST, *seeds.OF_HOLDFAST)  # measured anew for another one
+OF_HOLDFAST = ("side by side", "on two threads", *cad.OF_HOLDFAST, *sizes.OF_HOLDFAST, *seeds.OF_HOLDFAST)  # measured again for another one
 FASTER = ["Holdfast", "Holdfast fast", "Gmsh HXT", "TetGen"]
 SLOWER = ["Gmsh Delaunay", "Netgen"]
 HEADINGS = (cad.HEADING, sizes.HEADING, seeds.HEADING)  # of the other parts, in the document's order

@@ -8,8 +8,8 @@ OURS, HXT, GMSH, TETGEN = "Holdfast", "Gmsh HXT", "Gmsh Delaunay", "TetGen"
 PEERS = (HXT, GMSH, TETGEN, "Netgen")
 BEST = 6 / 8  # share of surfaces with the best least angle
 LIKE_HXT = 0.2  # by which the number of tetrahedra may differ
-EVEN = 2.5  # times, by which sizes may differ that count as the same
-THREADS, IN_PARTS = 1.5, 60_000  # times on two threads, from so many tetrahedra on
+EVEN = 2.5  # factor by which sizes that count as the same may differ
+THREADS, IN_PARTS = 1.5, 60_000  # speed-up on two threads, from so many tetrahedra on
 
 
 def pairs(results, peer, ours=OURS):
@@ -40,7 +40,7 @@ def small_angles(results, k):
 
 
 def counts(text, results, peer, ours=OURS):
-    """Numbers of tetrahedra over those of a peer; a target where the peer is HXT, which reads sizes as Holdfast does."""
+    """Ratios of numbers of tetrahedra to those of a peer; a target for HXT, which reads sizes as Holdfast does."""
     ratios = [mine["tetrahedra"] / theirs["tetrahedra"] for mine, theirs in pairs(results, peer, ours)]
     if not ratios:
         return Target(text, "not measured", None)
@@ -50,8 +50,8 @@ def counts(text, results, peer, ours=OURS):
 
 
 def sizes(results, spreads):
-    """Where a surface asks for different sizes, each mesher has its own between; only where it asks for much the same everywhere
-    are they the same for all."""
+    """If the sizes of a surface differ, each mesher interpolates them differently; they are the same for all only if they
+    are nearly constant."""
     even = {name: rows for name, rows in results.items() if spreads[name] <= EVEN}
     aim = f"Number of tetrahedra within {100 * LIKE_HXT:.0f} % of {HXT}'s"
     return [counts(aim, results, HXT), counts(f"The same, where edges of the surface differ by at most {EVEN} times (95th over 5th percentile)", even, HXT),
@@ -60,7 +60,7 @@ def sizes(results, spreads):
 
 
 def speed(results, peer, times, per_tetrahedron=False):
-    """Seconds of meshing; a tetrahedron where the other program makes far fewer of them."""
+    """Seconds of meshing; per tetrahedron if the other program makes far fewer of them."""
     ratios = [theirs["seconds"] / ours["seconds"] * (ours["tetrahedra"] / theirs["tetrahedra"] if per_tetrahedron else 1)
               for ours, theirs in pairs(results, peer)]
     text = f"At least {f'{times} times ' if times > 1 else ''}as fast as {peer}" + (", a tetrahedron" if per_tetrahedron else "")

@@ -1,4 +1,4 @@
-"""The paper's Fig. 15, 26,326 triangles, for which the paper's program took 311 s: Holdfast beside TetGen."""
+"""The paper's Fig. 15, 26,326 triangles, for which the paper's program took 311 s: Holdfast and TetGen."""
 import json
 import sys
 from pathlib import Path

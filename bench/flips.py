@@ -1,5 +1,5 @@
-"""The torture test's price: `--without flips`, so that partition and elimination do all the work, against the run with
-flips, on parts that people made (surfaces of the corpus that no program generated). CPU time of the whole process."""
+"""The cost of the stress test: `--without flips`, so that partition and elimination do all the work, compared with the
+run with flips, on parts that people made (surfaces of the corpus that no program generated). CPU time of the whole process."""
 import shutil
 from statistics import median, quantiles
 

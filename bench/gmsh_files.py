@@ -1,7 +1,7 @@
-"""Gmsh on a surface that it keeps: files that go in and come out; and what it means to keep one."""
+"""Gmsh on a surface that it keeps: its input and output files, and the test that it keeps the surface."""
 import subprocess
 
-# Sizes from nowhere, so that it adds as few points as it can.
+# Without any sizes, so that it adds as few points as possible.
 FILL_BY_HXT = """Merge "s.msh";
 Surface Loop(1) = {1};
 Volume(1) = {1};
@@ -47,12 +47,12 @@ def read_msh(path):
 
 
 def told(corners):
-    """A face by its corners' positions: programs write a digit or two fewer than a double needs."""
+    """A face by its corners' positions: programs write one or two digits fewer than a double needs."""
     return tuple(sorted(tuple(float(f"{x:.12g}") for x in p) for p in corners))
 
 
 def fill_by_hxt(surface, folder, limit):
-    """(number of points added, tetrahedra by their corners' positions), or None where HXT fails, takes longer than `limit`
+    """(number of points added, tetrahedra by their corners' positions), or None if HXT fails, takes longer than `limit`
     seconds or changes the surface."""
     points, triangles = read_off(surface)
     write_msh(folder / "s.msh", points, triangles)

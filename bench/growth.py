@@ -11,11 +11,11 @@ from points import write_random
 from process import apart, run
 
 ROOT = Path(__file__).resolve().parent.parent
-POINT_BYTES = 1500  # memory readied a point
+POINT_BYTES = 1500  # memory made ready per point
 
 
 def exponent(sizes, times):
-    """Slope of log(time) over log(size), by least squares."""
+    """Slope of log(time) against log(size), by least squares."""
     x, y = [log(s) for s in sizes], [log(t) for t in times]
     mx, my = sum(x) / len(x), sum(y) / len(y)
     return sum((a - mx) * (b - my) for a, b in zip(x, y)) / sum((a - mx) ** 2 for a in x)
@@ -58,7 +58,7 @@ def bench_delaunay(options, folder, rows):
 
 
 def fill_worst_case(options, folder, n):
-    """None where it takes too long."""
+    """None if it takes too long."""
     surface, report = folder / "fig13.smesh", folder / "fig13.json"
     run([sys.executable, ROOT / "examples" / "make_paper.py", "worst", surface, "-n", n, "-m", max(1, n // 2)])
     told = []

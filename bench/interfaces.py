@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What it costs the elements that a surface is meshed in parts: the demo part whole and in parts.
+"""The effect on elements of meshing a surface in parts: the demo part whole and in parts.
 
     interfaces.py PROGRAM FOLDER [--size 1.2] [--parts 2 8 64] [--jobs 2] [--write docs/scaling.md]
 
-Tells the tetrahedra by their least dihedral angle, in per cent, in bins of ten degrees.
+Prints the tetrahedra by their least dihedral angle, in per cent, in bins of ten degrees.
 """
 import argparse
 import json

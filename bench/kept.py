@@ -1,7 +1,7 @@
-"""What was measured is kept, row by row, in <build>/bench/<part>.json, so that a run goes on where the last one ended.
+"""Measurements are kept, row by row, in <build>/bench/<part>.json, so that a run continues where the last one ended.
 
-A part of the benchmark asks for its rows by names that tell all that a row depends on but the programs: these are the
-file's key, and rows of other programs are forgotten. Text and figures are computed from the rows each time.
+A part of the benchmark requests its rows by names that contain everything on which a row depends, except the programs.
+These are the file's key, and rows of other programs are dropped. Text and figures are computed from the rows each time.
 """
 import hashlib
 import json
@@ -24,7 +24,7 @@ class Rows:
         self.rows = kept["rows"] if kept.get("key") == key and not again else {}
 
     def get(self, name, measure, *arguments):
-        """The row of that name: plain JSON, from `measure(*arguments)` where it is not kept."""
+        """The row of that name: plain JSON, from `measure(*arguments)` if it is not kept."""
         if name not in self.rows:
             if not self.measuring:
                 raise NotMeasured(name)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The cube of scripts/scale.py in one process, by Holdfast, Gmsh HXT and TetGen: what parts are to be compared with.
+"""The cube of scripts/scale.py in one process, by Holdfast, Gmsh HXT and TetGen, for comparison with parts.
 
     large.py PROGRAM FOLDER --elements 1e6 1e7 [--timeout 900] [--write docs/scaling.md]
 
-All keep the surface and are asked for about as many elements of the same size: Holdfast by --size, Gmsh by the largest size,
+All keep the surface and get sizes for about as many elements: Holdfast by --size, Gmsh by the largest size,
 TetGen by the largest volume. Seconds are of the processor and of the clock, with reading and writing; the peak is that of
 the process.
 """
@@ -19,7 +19,7 @@ import process  # noqa: E402
 from gmsh_files import read_off, write_msh  # noqa: E402
 from scale import replace_block, size_of, write_cube_of  # noqa: E402
 
-# Of the largest volume that TetGen is given: its elements' mean is below it.
+# Of TetGen's largest volume: the mean of its elements is below it.
 TETGEN_MEAN = 0.62
 
 GEO = """Merge "s.msh";
@@ -42,7 +42,7 @@ def write_smesh(path, points, triangles):
 
 
 def commands(program, folder, surface, elements):
-    """name -> (command, what tells the number of tetrahedra in its output)."""
+    """name -> (command, pattern of the number of tetrahedra in its output)."""
     size = size_of(elements)
     points, triangles = read_off(surface)
     write_msh(folder / "s.msh", points, triangles)

@@ -1,7 +1,7 @@
-"""Surfaces of the corpus, evenly over all sizes: `holdfast mesh --fill` against `tetgen -pYQ`.
+"""Surfaces of the corpus, evenly over all sizes: `holdfast mesh --fill` and `tetgen -pYQ`.
 
-What counts is CPU time, user and system, of the whole process with reading and writing: the wall clock of some milliseconds
-is for the most part the making of a process, and what else the machine does then. It is told, too.
+CPU time counts, user and system, of the whole process with reading and writing: a wall-clock time of some milliseconds
+is mostly the start of the process and other work of the machine. It is reported, too.
 """
 import shutil
 from statistics import median, quantiles
@@ -21,8 +21,8 @@ def turns_of(runs):
 
 
 def holdfast(options, folder, *extra):
-    """No memory is readied: few need more than some MB, and touching it empties the processor's caches. Both programs find no
-    old files of theirs: to replace four takes half a millisecond."""
+    """No memory is made ready: few need more than some MB, and touching it empties the processor's caches. Old files of both
+    programs are removed first: replacing four takes half a millisecond."""
     for old in folder.glob("out.*"):
         old.unlink()
     done = run([options.build / "holdfast", "mesh", folder / "surface.off", "-o", folder / "out.node", "--fill", "-q", *extra],
@@ -94,7 +94,7 @@ def bench(options, folder, rows):
     if not options.surfaces_in:
         return sample.ABSENT, None
     closed = sample.closed_surfaces(options.surfaces_in)
-    # The few of the largest size are all taken: a sample may miss them.
+    # All of the few largest are used: a sample may miss them.
     chosen = sorted({*sample.evenly(closed, options.surfaces), *(s for s in closed if s.triangles >= VAST)}, key=lambda s: s.triangles)
     told = [rows.get(f"{s.name}, {options.runs} turns of {options.timeout:.0f} s", measure, options, folder, s) for s in chosen]
     both = [r for r in told if r["holdfast"]["cpu"] and r["TetGen"]["cpu"]]

@@ -12,7 +12,7 @@ import process
 ROOT = Path(__file__).resolve().parent.parent
 
 MEMORY = 1 << 30
-WAITING = 20  # times the limit on processor time, for the clock on the wall: others may be at work
+WAITING = 20  # times the limit on processor time, for the wall clock: other jobs may run
 GEO = """Merge "{surface}";
 Surface Loop(1) = {{1}};
 Volume(1) = {{1}};
@@ -29,12 +29,12 @@ class TookTooLong(Exception):
 class Made(NamedTuple):
     """A mesh in a file."""
     file: str
-    seconds: float  # of meshing alone, as the program itself tells it
+    seconds: float  # of meshing only, as the program itself reports it
     cpu: float  # of the whole process
 
 
 class Meshers:
-    """`memory` bytes are at hand for each; `options` has build and timeout, in seconds of processor time."""
+    """`memory` bytes are ready for each; `options` has build and timeout, in seconds of processor time."""
 
     def __init__(self, options, folder, memory=MEMORY):
         self.options, self.folder, self.memory = options, folder, memory

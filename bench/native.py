@@ -1,5 +1,5 @@
-"""The portable build against one with -march=native (preset `native`): Delaunay, and a surface filled. Predicates round the
-same way on both, since nothing is contracted, so that the meshes must be the same, bit for bit."""
+"""The portable build and one with -march=native (preset `native`): Delaunay, and a surface filled. Predicates round the
+same way in both, since nothing is contracted, so the meshes must be the same, bit for bit."""
 from statistics import median
 
 import surfaces

@@ -1,6 +1,6 @@
 """Netgen's volume mesh of a triangulated surface that it keeps: netgen_volume.py SURFACE.off VOLUME.mesh
 
-Prints the CPU seconds of the volume mesher alone. Needs Debian's python3-netgen, so run it by /usr/bin/python3.
+Prints the CPU seconds of the volume mesher only. Needs Debian's python3-netgen, so run it by /usr/bin/python3.
 """
 import sys
 import time
@@ -35,7 +35,7 @@ def main():
         out.write(f"Tetrahedra\n{len(elements)}\n")
         for element in elements:
             a, b, c, d = (v.nr for v in element.vertices)
-            out.write(f"{a} {c} {b} {d} 1\n")  # its tetrahedra turn the other way
+            out.write(f"{a} {c} {b} {d} 1\n")  # its tetrahedra have the other orientation
         out.write("End\n")
 
 

@@ -1,8 +1,8 @@
-"""The plane: constrained Delaunay triangles beside CGAL's Constrained_Delaunay_triangulation_2, and ears beside npm's earcut,
-cdt2d and poly2tri, their speed and on what they fail.
+"""The plane: constrained Delaunay compared with CGAL's Constrained_Delaunay_triangulation_2, and ears compared with
+npm's earcut, cdt2d and poly2tri: speed, and inputs on which they fail.
 
-A package fails on a polygon if it throws, if its triangles do not cover just the polygon, if one is flat or turned round, or if
-none has some corner. Areas are compared as fractions, so that rounding is no failure.
+A package fails on a polygon if it throws, if its triangles do not cover exactly the polygon, if one is flat or inverted,
+or if some corner is in none. Areas are compared as fractions, so rounding is not a failure.
 """
 import json
 import random
@@ -38,7 +38,7 @@ def cgal(options, path):
 
 
 def timed(options, path, turns, *more):
-    """By the processor, whatever else the machine does."""
+    """Processor time, whatever else the machine does."""
     done = run([options.build / "plane_times", path, turns, *more])
     if done.code != 0:
         return None
@@ -54,7 +54,7 @@ def measure_delaunay(options, folder):
 
 
 def packages_in(options):
-    """A folder with the packages, which npm brings once."""
+    """A folder with the packages, which npm installs once."""
     folder = options.build / "bench" / "npm"
     if not all((folder / "node_modules" / name).is_dir() for name in PACKAGES):
         folder.mkdir(parents=True, exist_ok=True)
@@ -76,7 +76,7 @@ def package_on(options, folder, package, polygons, turns):
 
 
 def as_poly(path, outlines):
-    """Each place once, as .poly wants it; holes by a place inside, which a small triangle at a corner has."""
+    """Each place once, as .poly requires; holes by a point inside, from a small triangle at a corner."""
     number, points, segments, holes = {}, [], [], []
     for outline in outlines:
         for p in outline:

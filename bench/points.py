@@ -9,7 +9,7 @@ def write_node(path, count, points):
 
 
 def write_random(path, count):
-    """Uniform in a cube; one at a time, since ten millions of them would take gigabytes here."""
+    """Uniform in a cube; one at a time, since ten million of them would take gigabytes here."""
     draw = random.Random(1).random
     write_node(path, count, ((draw(), draw(), draw()) for _ in range(count)))
 

@@ -19,14 +19,14 @@ block[::4096] = bytes(-(-size // 4096))
 
 
 def ready_memory(size):
-    """Makes the machine have `size` bytes of memory at hand. Virtual machines give memory that is free back to their host,
-    from which it comes again at a few hundred MB/s: whoever took it first would pay for that with most of its time. In a process
-    of its own, because a child's peak memory, as the system counts it, is not below its parent's."""
+    """Makes `size` bytes of memory ready. Virtual machines return free memory to their host, which gives it back at a few
+    hundred MB/s: the first program to use it would spend most of its time on that. This runs in a separate process,
+    because a child's peak memory, as the system counts it, is not below its parent's."""
     subprocess.run([sys.executable, "-I", "-S", "-c", TOUCH, str(size)], check=True)
 
 
-# Memory that a large program has given back keeps the host of a virtual machine busy for some seconds, which no count inside
-# tells of: a program on two threads took a fifth longer right after one.
+# Memory that a large program returned keeps the host of a virtual machine busy for some seconds, which is not visible
+# inside: a program on two threads took a fifth longer right after one.
 LARGE, REST = 512 << 20, 4.0  # bytes, seconds
 
 # Bytes: a peak below it may be this process's own, see `apart`.
@@ -43,13 +43,13 @@ class Run(NamedTuple):
 
 
 def run(command, timeout=600, directory=None, memory=0):
-    """Runs a process that finds `memory` bytes ready. After a large one there is a rest."""
+    """Runs a process with `memory` bytes ready. After a large one there is a pause."""
     if memory:
         ready_memory(memory)
     with tempfile.TemporaryFile() as output:
         started = time.monotonic()
         process = subprocess.Popen([str(word) for word in command], stdout=output, stderr=subprocess.STDOUT, cwd=directory)
-        # Waiting must take no time of the processor: a program on two threads has none to spare.
+        # Waiting must take no processor time: a program on two threads needs all of it.
         late = threading.Event()
 
         def kill():
@@ -70,9 +70,9 @@ def run(command, timeout=600, directory=None, memory=0):
 
 
 def take_turns(programs, turns):
-    """name -> its results, the programs taking turns, so that none has the machine's better minutes to itself. `programs` maps
-    names to functions that give a result or, where they fail, None: such a program gets no further turn, and None for its results.
-    `turns` is how many, or a function of the first results that tells it."""
+    """name -> its results. The programs take turns, so that the machine's better minutes favour none. `programs` maps names
+    to functions that return a result or, on failure, None: such a program gets no further turn, and None for its
+    results. `turns` is their number, or a function of the first results that returns it."""
     results = {name: [program()] for name, program in programs.items()}
     if callable(turns):
         turns = turns([first for (first,) in results.values() if first is not None])
@@ -84,7 +84,7 @@ def take_turns(programs, turns):
 
 
 def apart(work, *arguments):
-    """Calls a function in a process of its own: a child's peak memory, as the system counts it, is not below its parent's, so that
+    """Calls a function in a separate process: a child's peak memory, as the system counts it, is not below its parent's, so
     this one must stay small."""
     worker = multiprocessing.Process(target=work, args=arguments)
     worker.start()

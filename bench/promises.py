@@ -1,10 +1,10 @@
-"""Whether more effort, and field points, ever make a mesh worse: the promises of docs/sizes.md on a fixed sample of the corpus.
+"""Tests the promises of docs/sizes.md on a fixed sample of the corpus: more effort, and field points, make no mesh worse.
 
     promises.py --build build/release --corpus DIR [--count 40] [--offset 0] [--largest 300] [--cad] [--options "--size 2"]
 
 DIR holds the valid surfaces of the corpus as .off. For each surface of the sample, the meshes of `--fill` and of each quality are
 compared by the least dihedral angle, the share of elements below 10 degrees and the mean Q: `fast` with `--fill`, `good` with `fast`,
-`best` with `good`. Prints what is worse, and in the end how often.
+`best` with `good`. Prints the figures that are worse, and in the end how often.
 """
 import argparse
 import json
@@ -32,7 +32,7 @@ def measure(options, surface, mode):
 
 
 def is_worse(figure, row, before):
-    """Beyond what writing and measuring round."""
+    """Beyond the rounding of writing and measuring."""
     x, y = figure(row), figure(before)
     return x < y - 1e-6 * abs(y) - 1e-9
 

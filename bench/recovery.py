@@ -1,11 +1,11 @@
-"""How the time of recovery grows: surfaces of any size of which the same share is missing in the Delaunay mesh.
+"""How the time of recovery grows: surfaces of any size with the same share missing in the Delaunay mesh.
 
-* A plate of k x k round holes, one piece. The circles above and below are turned against each other, and the diagonals
-  between them are the longer ones; the plane faces are fans from the corners of the cells, as CAD systems export them.
-* Copies of the housing of examples/make_part.py, k x k x k, close to each other. A copy inside has neighbours all round, one
-  alone has none: to some degree the time a tetrahedron must grow until most are inside.
+* A plate of k x k round holes, one piece. The circles above and below are rotated relative to each other, and the
+  diagonals between them are the longer ones; the plane faces are fans from the corners of the cells, as CAD systems export them.
+* Copies of the housing of examples/make_part.py, k x k x k, close to each other. An inner copy has neighbours all
+  round, a single one has none: so the time per tetrahedron must grow somewhat until most are inside.
 
-Recovery is flips and partition; a tetrahedron is one of the mesh in the end.
+Recovery is flips and partition; tetrahedra are those of the final mesh.
 """
 import itertools
 import json
@@ -24,15 +24,15 @@ sys.path.insert(0, str(ROOT / "examples"))
 from make_part import housing  # noqa: E402
 from polygons import GRID  # noqa: E402
 
-SIDES, TURN = 16, 0.3  # of a hole; by how much of a side the circles are turned
-GAP = 1.1  # distance of copies over their size
-LONG = 10  # seconds from which on one turn has to do
-TRIANGLE_BYTES = 400  # memory readied a triangle
+SIDES, TURN = 16, 0.3  # of a hole; part of a side by which the circles are rotated
+GAP = 1.1  # ratio of the distance of copies to their size
+LONG = 10  # seconds above which there is one turn only
+TRIANGLE_BYTES = 400  # memory made ready per triangle
 RECORD = struct.Struct("<12fH")
 
 
 def write_stl(path, triangles):
-    """A binary STL file of triangles that come one at a time: of ten millions none are kept."""
+    """A binary STL file of triangles from an iterator: ten million are never in memory together."""
     with open(path, "wb") as file:
         file.write(bytes(84))
         count = 0
@@ -63,7 +63,7 @@ def face_of_cell(x, y, z, ring, phase):
 
 
 def cell(x, y, draw):
-    """Its hole and its two faces; holes differ in size and phase, so that nothing is cospherical but their circles."""
+    """Its hole and its two faces; holes differ in size and phase, so that only their circles are cospherical."""
     phase, radius = draw(), 0.35 * (0.8 + 0.4 * draw())
     low = circle(x + 0.5, y + 0.5, 0.0, radius, phase)
     high = circle(x + 0.5, y + 0.5, 1.0, radius, phase + TURN)
@@ -103,7 +103,7 @@ def parts(k):
 
 
 def fill(options, folder, make, k):
-    """None where it fails or takes too long."""
+    """None if it fails or takes too long."""
     surface, report = folder / "recovery.stl", folder / "recovery.json"
     apart(lambda: write_stl(surface, make(k)))
     memory = (1 << 28) + TRIANGLE_BYTES * (surface.stat().st_size // RECORD.size)

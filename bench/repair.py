@@ -1,13 +1,13 @@
-"""Repairs broken surfaces and judges what comes out: docs/repair.md, by `make repair`.
+"""Repairs broken surfaces and evaluates the results: `make repair` writes docs/repair.md.
 
     bench/repair.py --holdfast PROGRAM --rows FILE.jsonl --out docs/repair.md [--checker CHECK_REPAIR] [--autorefine PROGRAM]
                     [--jobs N] [--most TRIANGLES] [--only PATTERN] [--without-others] [--report-only] [--test N]
                     [FOLDER...]
 
 Every surface is repaired with the options of its group, and the result is judged by `holdfast check --repaired` and by an
-independent checker; then it is meshed where it encloses anything, and the mesh is checked. The same surfaces go through Debian's
-admesh and CGAL's autorefine, whose results are only asked whether they are valid. A row is kept for as long as the program is
-the same, so that a run may be interrupted; what other programs did is kept when ours changes.
+independent checker; then it is meshed if it encloses anything, and the mesh is checked. The same surfaces go through Debian's
+admesh and CGAL's autorefine, whose results are only tested for validity. A row is kept as long as the program is the
+same, so a run may be interrupted; rows of other programs are kept when ours changes.
 """
 import argparse
 import fnmatch
@@ -26,13 +26,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "scripts"))
 import corpus  # noqa: E402  (where the independent checker is)
 
-LIMIT = 120  # seconds a program of ours
+LIMIT = 120  # seconds for a program of ours
 INDEPENDENT = 100  # seconds of CPU for the independent checker
 OTHERS = 10  # seconds of CPU for one of another project: admesh does not end on some surfaces with T-junctions
 
 
-# The independent checker measures its samples in doubles, and says that it does: beside slivers it is wrong by more than it allows
-# for. Its second build measures those that it would refuse once more, in the rationals that it has for its other rules.
+# The independent checker measures its samples in doubles, and says so: near slivers its error exceeds its allowance.
+# Its second build measures those that it would refuse once more, in the rationals of its other rules.
 IN_DOUBLES = "if (d > lim + 1e-14 * sc) bad("
 IN_RATIONALS = """if (d > lim + 1e-14 * sc) {
             auto v3 = [](const P& a) { return V3{a.x(), a.y(), a.z()}; };
@@ -43,7 +43,7 @@ IN_RATIONALS = """if (d > lim + 1e-14 * sc) {
 
 
 def build_checkers(folder):
-    """The independent checker as it is and the one that measures in rationals, where its source is and compiles; else None."""
+    """The independent checker and the one that measures in rationals, if its source exists and compiles; else None."""
     source = corpus.SHARED / "tools" / "check_repair.cpp"
     if not source.exists():
         return None, None
@@ -122,7 +122,7 @@ def extent(path):
 
 
 def run(command, folder, cpu_limit=None):
-    """(exit code or None, what was said, seconds of CPU): the machine may be busy with other things."""
+    """(exit code or None, output, seconds of CPU): the machine may be busy with other things."""
     def prepare():
         if cpu_limit:
             resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 1))
@@ -159,7 +159,7 @@ class Bench:
         return [self.holdfast, *words, "--time-limit", LIMIT, "--memory-limit", 6, "-q"]
 
     def measure(self, path, group, others=None):
-        """A row; `others` are what the other projects' programs did before, if that is known."""
+        """A row; `others` are earlier results of the other projects' programs, if known."""
         row = {"name": path.stem, "group": group, "stamp": self.stamp, "triangles": counts(path)[1]}
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
@@ -206,7 +206,7 @@ class Bench:
             row["mesh_said"] = said[-1500:]
 
     def check_independently(self, path, folder, row):
-        """That checker looks at triangles alone: whether a surface with segments or isolated vertices was valid, it cannot tell."""
+        """That checker reads only triangles: it cannot decide whether a surface with segments or isolated vertices was valid."""
         command = [path, "out.off", "r.json", "--parents", "p.txt", *(["--no-identity"] if has_more_than_triangles(path) else [])]
         code, said, _ = run([self.checker, *command], folder, INDEPENDENT)
         if code is not None:  # else it took too long
@@ -220,7 +220,7 @@ class Bench:
                 row["in_rationals_said"] = said[:1500]
 
     def other(self, path, folder, command, result, from_stl):
-        """Whether another program's result is valid, by our judgement and the independent one, and its seconds."""
+        """Whether another program's result is valid, by our check and the independent one, and its seconds."""
         if from_stl:
             write_stl(path, folder / "in.stl")
         code, _, seconds = run(command, folder, OTHERS)
@@ -235,7 +235,7 @@ class Bench:
         return found
 
     def independently_valid(self, folder, result):
-        """The independent checker compares; a surface that is compared with itself is only asked whether it is one."""
+        """The independent checker compares; comparing a surface with itself only tests its validity."""
         code, _, _ = run([self.holdfast, "convert", result, "other.off"], folder)
         if code != 0:
             return False
@@ -248,7 +248,7 @@ class Bench:
 
 
 def weld(path):
-    """Vertices at one place become one: that is no defect of the surface."""
+    """Vertices at one place become one: that is not a defect of the surface."""
     with open(path, encoding="latin-1") as file:
         words = [w for line in file for w in line.split("#")[0].replace("OFF", " ").split()]
     n, m, first, number = int(words[0]), int(words[1]), {}, []
@@ -308,7 +308,7 @@ def verified(row):
 
 
 def is_right(row):
-    """Repaired, verified, and meshed where it encloses anything."""
+    """Repaired, verified, and meshed if it encloses anything."""
     return row["exit"] == 0 and verified(row) and row["mesh"] in (0, "open") and row.get("mesh_check", True)
 
 
@@ -329,7 +329,7 @@ def summary(rows):
         "displacement": max((r["share"] for r in done), default=0),
         "near": sum(r["share"] < 2**-40 for r in done),
         "seconds": sum(r["seconds"] for r in rows),
-        # of surfaces that take longer than to start the program
+        # of surfaces that take longer than starting the program
         "speed": 1e6 * sum(r["seconds"] for r in done if r["vertices"] >= 1000) /
         max(1, sum(r["vertices"] for r in done if r["vertices"] >= 1000)),
     }
@@ -439,8 +439,8 @@ def main():
     rows = [known[g, p.stem] for p, g in wanted if (g, p.stem) in known]
     s = summary(rows)
     print(json.dumps(s))
-    # The independent checker measures distances in floating point, and a valid surface may be hard to mesh: neither is what this
-    # test is about.
+    # The independent checker measures distances in floating point, and a valid surface may be hard to mesh: this test
+    # is about neither.
     if arguments.test and sum(r["exit"] == 0 and r["own"] for r in rows) < 0.97 * len(rows):
         sys.exit(1)
     if arguments.out:

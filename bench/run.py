@@ -1,11 +1,11 @@
-"""Speed against TetGen, CGAL and Gmsh: programs take turns, medians and ratios are told, and whether targets are met.
+"""Speed compared with TetGen, CGAL and Gmsh: programs take turns; reports medians, ratios, and whether targets are met.
 
     run.py --build build/release [--native build/native] [--corpus DIR] [--runs 5] [--part PART]... [--again PART]...
 
-Parts, each told in its module: delaunay, surfaces, fig15, growth, recovery, mesh, flips, native, plane. What is measured is kept
-in <build>/bench/<part>.json (kept.py), and a part that is known for these programs and options is not measured again, unless
---again asks for it. --part restricts what is measured; docs/benchmarks.md is written from all that is known, and keeps what it
-says of parts that are not known for this program, marked as such.
+Parts, each described in its module: delaunay, surfaces, fig15, growth, recovery, mesh, flips, native, plane. Rows are
+kept in <build>/bench/<part>.json (kept.py), and a part that is known for these programs and options is not measured
+again, unless --again asks for it. --part restricts what is measured. docs/benchmarks.md is written from all known rows;
+its text on parts that are not known for this program is kept, and marked as such.
 """
 import argparse
 import os
@@ -86,7 +86,7 @@ def measure(name, options):
 
 
 def known(options):
-    """name -> lines and figures, None for a part of which something is not measured."""
+    """name -> lines and figures, None for a part that is not completely measured."""
     def part(name):
         try:
             return PARTS[name].bench(options, None, rows_of(name, options, measuring=False))
@@ -100,7 +100,7 @@ EARLIER = "*Measured earlier, with another build than the one named above.*"
 
 
 class Earlier:
-    """What the document says already: sections by title, and rows of the targets by their texts."""
+    """The existing document: sections by title, and rows of the targets by their texts."""
 
     def __init__(self, path):
         text = path.read_text(encoding="utf-8") if path.exists() else ""
@@ -110,7 +110,7 @@ class Earlier:
         self.targets = {row[2:].split(" | ")[0]: row for row in rows}
 
     def section(self, title, lines, known):
-        """`lines`, or what stands there where they are not known."""
+        """`lines`, or the existing ones if they are not known."""
         before = self.sections.get(title)
         if known or not before or before[0].startswith("Not measured yet"):
             return lines
@@ -124,7 +124,7 @@ class Earlier:
 
 
 def field_lines(options, earlier):
-    """What bench/field.py kept of its targets beside its rows."""
+    """The targets that bench/field.py stored with its rows."""
     told = field_targets(options.build / "field_targets.json", digest(options.build / "holdfast"))
     lines = ["Meshes to compute with, beside Gmsh, TetGen and Netgen: [field.md](field.md), by `make field`.", "", *told]
     measured = not told[0].startswith("Not measured yet")

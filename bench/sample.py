@@ -19,7 +19,7 @@ class Surface(NamedTuple):
 
     @property
     def generated(self):
-        """Made by a program, not somebody's part."""
+        """Generated, not a real part."""
         return self.name.startswith("gen_")
 
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What threads gain, by stage: the work and what one thread has to do alone, measured on two; times predicted for more.
+"""The gain of threads, by stage: the work and its serial part, measured on two threads; times predicted for more.
 
     scaling.py PROGRAM FOLDER [--triangles 100000 1000000] [--write docs/scaling.md]
 
-In each stage both threads share what is done at the same time, and the caller's does the rest alone. So its CPU time less that
-of the other is what is serial, and all else is what is shared. Where the other has more, the caller has waited for it, or for a
-core: which of them CPU times do not tell, and it is counted as shared. The CPU times are those of the kernel, for each
-thread, at the moments when the program tells that a stage begins. That needs Linux.
+In each stage both threads share the parallel work, and the caller's thread does the rest alone. So its CPU time minus
+that of the other is serial, and the rest is shared. If the other has more, the caller has waited for it, or for a core:
+CPU times do not show which, and it is counted as shared. The CPU times are those of the kernel, for each
+thread, at the moments when the program reports that a stage begins. That needs Linux.
 """
 import argparse
 import os
@@ -31,7 +31,7 @@ def cpu_of_threads(pid):
     folder = Path(f"/proc/{pid}/task")
     try:
         return {int(t): int((folder / t / "schedstat").read_text().split()[0]) / 1e9 for t in sorted(os.listdir(folder), key=int)}
-    except (OSError, IndexError):  # a thread, or the process, has just ended
+    except (OSError, IndexError):  # a thread or the process has just ended
         return {}
 
 

@@ -1,9 +1,9 @@
 """Whether other random orders do better without field points: the fourth group of field.py.
 
-The sample is fixed by a rule: the valid, closed surfaces of the corpus of at most MOST_TRIANGLES triangles, in the
-order of the SHA-256 of their names, the first of these. `holdfast mesh --fill` meshes each with its default seed and
-with OTHERS more. What is flat by chance in the one mesh is not in another, so seeds agree where nothing is flat that
-need not be: where none of the others has a worst Q (the paper's, 1 is regular; as mesh_shape has it) below 1 / TIMES of
+The sample is fixed by a rule: the first of the valid, closed surfaces of the corpus of at most MOST_TRIANGLES
+triangles, in the order of the SHA-256 of their names. `holdfast mesh --fill` meshes each with its default seed and with
+OTHERS more. An element that is flat by chance in one mesh is not flat in another. So seeds agree if no element is flat
+unnecessarily: if none of the others has a worst Q (the paper's, 1 is regular; as mesh_shape has it) below 1 / TIMES of
 the default's.
 """
 import hashlib
@@ -18,7 +18,7 @@ HEADING = "## Other seeds without field points"
 MOST_TRIANGLES = 6000
 SEED, OTHERS = 1, 10  # the default seed; others follow it
 TIMES = 2
-SHARE = 0.95  # of the surfaces, of which the target asks
+SHARE = 0.95  # of the surfaces, for the target
 
 
 def surfaces(folder, count):
@@ -34,7 +34,7 @@ class SeedBench(Meshers):
         super().__init__(options, folder, memory=0)
 
     def filled(self, surface, seed):
-        """The row of one mesh; {"failed": why} without."""
+        """The row of one mesh; {"failed": why} without one."""
         try:
             made = self.holdfast(surface, "--fill", "--seed", seed)
         except TookTooLong:
@@ -55,18 +55,18 @@ OF_HOLDFAST = ("seeds",)
 
 
 def best_other(rows):
-    """The least worst Q of the other seeds; None where none has a mesh."""
+    """The least worst Q of the other seeds; None if none has a mesh."""
     return min((row["worst_q"] for row in rows[1:] if "failed" not in row), default=None)
 
 
 def ratio(rows):
-    """By how many times another seed is better; None without meshes."""
+    """The factor by which another seed is better; None without meshes."""
     best = best_other(rows)
     return None if "failed" in rows[0] or best is None else rows[0]["worst_q"] / best
 
 
 def in_targets(rows):
-    """The worst Q as a multiple of what the triangles ask for."""
+    """The worst Q as a multiple of the triangles' target."""
     return rows[0]["worst_q"] / rows[0]["target"]
 
 

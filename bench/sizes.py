@@ -1,13 +1,13 @@
-"""Sizes far from the surface's: the third group of field.py, beside TetGen and Gmsh with the same sizes.
+"""Sizes far from the surface's: the third group of field.py, compared with TetGen and Gmsh at the same sizes.
 
 The demo part (examples/make_part.py) and COUNT surfaces of the corpus, each with `--size H`, where H is its mean edge times 1, 1/2, 1/4 and
-1/8. The surfaces are fixed by a rule: those of bench/cad.py's order for which regular tetrahedra with the least H for an edge would
-be at most MOST_ELEMENTS, the first of these. So is the least size of the demo part left out.
+1/8. The surfaces are fixed by a rule: the first ones in bench/cad.py's order for which the number of regular tetrahedra
+with the least H as edge is at most MOST_ELEMENTS. By the same limit, the least size of the demo part is left out.
 
 Gmsh has H as its largest size, TetGen the volume of the regular tetrahedron of that edge as its largest volume. A
-peer's mesh counts as in bench/cad.py, where it has at least LEAST_PEER times as many elements as there would be regular
-ones: Gmsh's Delaunay ignores the size beside large triangles. Each runs once, on one thread; seconds are CPU time of
-whole processes. Where HXT exceeds the time limit, it is not tried at smaller sizes.
+peer's mesh counts as in bench/cad.py if it has at least LEAST_PEER times as many elements as there would be regular
+ones: Gmsh's Delaunay ignores the size near large triangles. Each runs once, on one thread; seconds are CPU time of
+whole processes. If HXT exceeds the time limit, it is not tried at smaller sizes.
 """
 import statistics
 import subprocess
@@ -115,7 +115,7 @@ def regular(rows):
 
 
 def peers_of(rows):
-    """Those that bench/cad.py takes and that have heeded the size."""
+    """Those that bench/cad.py accepts and that respect the size."""
     if not cad.is_mesh(rows[OURS]):
         return {}
     return {peer: row for peer, row in cad.peers_of(rows).items() if row["tetrahedra"] >= LEAST_PEER * regular(rows)}
@@ -134,7 +134,7 @@ def has_few_bad(rows):
 
 
 def has_as_many(rows):
-    """As HXT, or where it fails, as regular tetrahedra ask for."""
+    """HXT's, or if it fails, that of regular tetrahedra."""
     if not cad.is_mesh(rows[OURS]):
         return False
     ours, hxt = rows[OURS]["tetrahedra"], peers_of(rows).get(HXT)

@@ -10,7 +10,7 @@ def medians(reports):
 
 
 def table(first, profiles):
-    """Percent of the whole; `profiles` maps what stands in the column `first` to the seconds of the stages."""
+    """Per cent of the whole; `profiles` maps entries of the column `first` to the seconds of the stages."""
     shown = [s for s in ORDER if any(s in seconds for seconds in profiles.values())]
     lines = [f"| {first} | seconds | " + " | ".join(f"{s} %" for s in shown) + " |", "|---" + "|---:" * (len(shown) + 1) + "|"]
     for name, seconds in profiles.items():

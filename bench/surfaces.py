@@ -9,12 +9,12 @@ from statistics import median
 from process import MEASURABLE, apart, run, take_turns
 from stages import medians, table
 
-MEMORY = 2 << 30  # bytes that a program finds ready, see process.ready_memory
+MEMORY = 2 << 30  # bytes that are ready for a program, see process.ready_memory
 OURS, OURS_ON_TWO, TETGEN, HXT, SLOW = "holdfast", "holdfast, 2 threads", "TetGen -pYQ", "Gmsh HXT", "Gmsh Delaunay"
 
 
 def torus(rows, columns):
-    """A torus with ripples, every second row half a step on: (points, triangles). `rows` is even."""
+    """A torus with ripples, every second row shifted by half a step: (points, triangles). `rows` is even."""
     points = []
     for i in range(rows):
         for j in range(columns):
@@ -61,14 +61,14 @@ def write_surface(folder, count):
 
 
 def write_geo(path, algorithm):
-    """Gmsh keeps a discrete surface; sizes from nowhere, so that it adds as few points as it can."""
+    """Gmsh keeps a discrete surface; without any sizes, so that it adds as few points as possible."""
     path.write_text(f'Merge "surface.stl";\nSurface Loop(1) = {{1}};\nVolume(1) = {{1}};\nMesh.Algorithm3D = {algorithm};\n'
                     "Mesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeFromPoints = 0;\nMesh.MeshSizeMax = 1e22;\n"
                     "Mesh.Optimize = 0;\n", encoding="ascii")
 
 
 def whole(folder, command, target, timeout, report=None):
-    """Wall seconds and peak memory of a program that writes `target`, and what it reports; None where it does not."""
+    """Wall seconds and peak memory of a program that writes `target`, and its report; None if it writes nothing."""
     (folder / target).unlink(missing_ok=True)
     done = run(command, timeout, folder, MEMORY)
     if done.code != 0 or not (folder / target).exists():

@@ -1,4 +1,4 @@
-"""The paper's Tables I and II for the generated cases and the corpus, beside TetGen, in one run.
+"""The paper's Tables I and II for the generated cases and the corpus, compared with TetGen, in one run.
 
     tables.py --build build/release [--corpus DIR] [--surfaces 300] [--jobs 2] [--seed2 2]
 
@@ -30,7 +30,7 @@ import corpus  # noqa: E402  (finds the surfaces)
 from gmsh_files import fill_by_hxt, read_off, told  # noqa: E402
 
 PEER_LIMIT = 60  # seconds
-ROUNDING = 1 + 1e-9  # equal Q is told as equal
+ROUNDING = 1 + 1e-9  # equal Q is reported as equal
 
 # The paper's surfaces (section), made here; those in brackets are the corpus's names.
 GENERATED = [
@@ -88,7 +88,7 @@ def read_numbers(path):
 
 
 def tetgen_worst(folder):
-    """(vertices, tetrahedra, worst Q) of TetGen's files, or None where a triangle of the surface is no face of them: it
+    """(vertices, tetrahedra, worst Q) of TetGen's files, or None if a triangle of the surface is not a face of them: it
     merges vertices that are near each other."""
     points = [tuple(map(float, row[1:4])) for row in read_numbers(folder / "s.1.node")]
     tetrahedra = [tuple(map(int, row[1:5])) for row in read_numbers(folder / "s.1.ele")]
@@ -198,7 +198,7 @@ def table(rows):
 
 
 def beside(rows, peer, name):
-    """Points and worst Q of ours, with the points that the optimisation adds and without, beside a peer's."""
+    """Points and worst Q of ours, with and without the points that the optimisation adds, compared with a peer's."""
     lines = []
     for key, how in (("report", ""), ("fewest", ", `--without points`")):
         both = [r for r in rows if r[peer] and r[key]]

@@ -8,12 +8,12 @@ PLANE = 2  # times CGAL's speed
 READING, VALIDATION = 0.3, 0.15  # shares of the Delaunay time, and of the whole
 THREADS = 1.6
 FIG15 = 1.0  # seconds
-FLAT = 1.05  # exponent: a tenth more a tetrahedron for ten times as many, since caches and page tables end somewhere
+FLAT = 1.05  # exponent: a tenth more per tetrahedron for ten times as many, since caches and page tables are limited
 MACHINE = 24  # GiB
 
 
 def below_tetgen(text, ratios):
-    """What was measured, and whether it is met, of peak memory over TetGen's; programs that need little are not told apart."""
+    """The ratio of peak memory to TetGen's, and whether the target is met; programs that need little are not distinguished."""
     return (f"{text} of TetGen's", max(ratios) < 1) if ratios else ("too little to tell", None)
 
 
@@ -89,7 +89,7 @@ def of_flips(f):
 
 
 def flatness(tetrahedra, seconds, exponent):
-    """Nanoseconds a tetrahedron over sizes, and what power they make."""
+    """Nanoseconds per tetrahedron at each size, and the exponent of their growth."""
     each = ", ".join(f"{1e9 * s / t:,.0f}" for t, s in zip(tetrahedra, seconds))
     return f"{each} ns from {tetrahedra[0]:,} to {tetrahedra[-1]:,} tetrahedra: power {exponent:.2f}"
 
@@ -142,7 +142,7 @@ def of_plane(f):
 
 
 def targets(figures):
-    """Of all parts; `figures` maps the names of those that are measured to theirs."""
+    """Of all parts; `figures` maps the names of measured parts to their figures."""
     get = figures.get
     return [*of_delaunay(get("delaunay")), *of_surfaces(get("surfaces")), *of_corpus(get("mesh")), *of_fig15(get("fig15")),
             *of_flips(get("flips")), *of_growth(get("growth")), *of_recovery(get("recovery")), *of_profile(figures),

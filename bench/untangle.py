@@ -2,8 +2,8 @@
 
     untangle.py HOLDFAST [--grids 4 8 16] [--surfaces FILE.off ...] [--only WORD] [--work DIR]
 
-Meshes are jittered grids and what `holdfast mesh --fill` makes of the surfaces. Each is tangled: free vertices
-displaced at random, vertices rounded, the boundary moved with the inside left behind. One line a case.
+Meshes are jittered grids and results of `holdfast mesh --fill`. Each is tangled: free vertices displaced at random,
+vertices rounded, the boundary moved without the inside. One line per case.
 """
 import argparse
 import json
