@@ -1,9 +1,9 @@
-"""Fails when a document names what does not exist: a path, a link, an anchor, an option, a make target, a source file.
+"""Fails if a document names something that does not exist: a path, a link, an anchor, an option, a make target, a header.
 
     documents.py ROOT [HOLDFAST]     HOLDFAST: the program, for its options
     documents.py --selftest
 
-It also fails where source, tests or documents cite a text outside of the repository.
+It also fails if source, tests or documents cite a text outside the repository.
 """
 import re
 import subprocess
@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-# Made by hand for what is not here, or measured by a program: nothing of these is a path of ours.
+# Measured by programs: these may name paths that are not in the repository.
 GENERATED = {"docs/benchmarks.md", "docs/results.md", "docs/field.md", "docs/paper.md"}
 OUTSIDE = [re.compile(text, re.I) for text in ("design" + " §", r"\.\." + "/shared", "/work" + "/shared")]
 FOLDERS = ("src", "include", "tests", "docs", "examples", "bench", "scripts", "python", "cmake", ".ci")
@@ -83,7 +83,7 @@ def outside_texts(root):
 
 
 def options_of_scripts(root):
-    """What the repository's own scripts take, and what those that it names in its Makefile do."""
+    """The options of the repository's own scripts and of the tools in its Makefile."""
     found = set(FOREIGN)
     for folder in ("examples", "scripts", "bench", "tests", "python"):
         for path in (root / folder).rglob("*.py"):
@@ -125,7 +125,7 @@ class AnyOption:
 
 
 def selftest():
-    """Each kind of fault is found, and what is right is left alone."""
+    """Each kind of fault is found, and a correct document has none."""
     right = "# Words\n\n[here](#words), [there](docs/b.md#to-be-had), `src/a.h`, `make test`, `holdfast mesh --fill`\n"
     wrong = {
         "[x](none.md)": "no file", "[x](docs/b.md#none)": "no section", "see `src/none.h`": "no path",

@@ -1,8 +1,8 @@
-"""Fails when a layer of src/ includes a header of a layer above it, or when library code prints, exits, names
-options of the command line, changes the mesh by single steps (mesh/assembly.h), converts numbers by functions that heed
-the locale of the program round it (src/text/decimal.h is for that), or uses what the standard leaves to each library,
-so that meshes would differ between platforms (src/numbers is for that). Nor may what the package for browsers is made of include
-what web/CMakeLists.txt leaves out of it: it would not link.
+"""Fails if a layer of src/ includes a header of a layer above it, or if library code prints, exits, names options of the
+command line, changes the mesh by single steps (mesh/assembly.h), converts numbers by functions that depend on the locale
+(use src/text/decimal.h), or uses functions whose results the standard leaves to the implementation, so that meshes would
+differ between platforms (use src/numbers). Sources of the package for browsers must not include layers that
+web/CMakeLists.txt leaves out: it would not link.
 
     layers.py ROOT LAYER...      LAYER... from the lowest to the highest (HOLDFAST_LAYERS of CMakeLists.txt)
     layers.py --selftest
@@ -15,8 +15,8 @@ from pathlib import Path
 # Layers that may use less than everything below them.
 ONLY = {"check": {"text", "numbers", "exact"}, "check_repair": {"text", "numbers", "exact", "check"},
         "io": {"text", "numbers", "metric"}}
-# Threads and limits are no part of the mesh that they lie beside, the table of places and that of isolated vertices ask for
-# nothing but the surface, and polygons become triangles by one header.
+# Threads and limits are in the folder of the mesh but independent of it, the tables of places and of isolated vertices
+# need only the surface, and one header turns polygons into triangles.
 BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h", "surface/isolated.h", "plane/facets.h",
                  "second_order/edge_numbers.h", "second_order/edges_of.h", "size/flat_field.h"}}
 
@@ -34,10 +34,10 @@ UNDEFINED = re.compile(
     r"unordered_multi(?:map|set)|"
     r"(?:exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|"
     r"atanh|erf|erfc|tgamma|lgamma|fma)[fl]?\s*\()")
-# TetMesh gives its mutators to MeshEditor alone, and single steps have a header of their own, for these.
+# Only MeshEditor has access to the mutators of TetMesh, and single steps have a separate header, for these.
 ASSEMBLY = "mesh/assembly.h"
 ASSEMBLERS = {"refine/parts.cpp"}
-# On top of the public headers, beside the library.
+# Outside the library, on top of the public headers.
 OUTSIDE = {"cli", "reports"}
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 

@@ -1,5 +1,5 @@
-"""Fails when two headers or sources define different types of one name in one namespace: templates such as
-std::vector<Element> are then merged by the linker, and one of them works on the other's memory, without a word.
+"""Fails if two headers or sources define different types of one name in one namespace: the linker then silently merges
+templates such as std::vector<Element>, and one of them works on the other's memory.
 
     one_definition.py ROOT
     one_definition.py --selftest
@@ -17,7 +17,7 @@ TOKEN = re.compile(
 
 
 def types_of(text):
-    """Names of the types that a text defines for the linker to see: those of anonymous namespaces are its own."""
+    """Names of the types that a text defines with external linkage, so without those in anonymous namespaces."""
     scopes = []
     for match in TOKEN.finditer(NOISE.sub(" ", text)):
         token = match.group()

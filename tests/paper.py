@@ -1,4 +1,4 @@
-"""Fails when docs/paper.md lacks a figure, a table or a section of the paper, or a section's link to its source or test is broken.
+"""Fails if docs/paper.md lacks a figure, a table or a section of the paper, or a section's link to its source or test is broken.
 
     paper.py ROOT
     paper.py --selftest
@@ -42,7 +42,7 @@ def faults(root):
 
 
 def selftest():
-    """A page with all is right; what is taken from it is missed."""
+    """A complete page passes; each missing item is found."""
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         for name in ("docs/paper", "src", "tests"):

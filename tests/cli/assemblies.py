@@ -7,7 +7,7 @@ Part = tuple[list[tuple[float, float, float]], list[tuple[int, int, int]]]
 
 
 def box(low, high, steps) -> Part:
-    """A box whose sides have grids of steps[k] cells along axis k, seen from outside; diagonals alternate."""
+    """A box whose sides have grids of steps[k] cells along axis k, facing outwards; diagonals alternate."""
     steps = (steps,) * 3 if isinstance(steps, int) else steps
     index: dict[tuple[int, int, int], int] = {}
     points: list[tuple[float, float, float]] = []
@@ -59,7 +59,7 @@ def cylinder(radius, low, high, sides, turn=0.0, layers=1) -> Part:
 
 
 def ring(inner: Part, outer: Part) -> Part:
-    """What is left of the outer part when the inner one, which lies strictly inside, is taken out."""
+    """The outer part without the inner one, which lies strictly inside."""
     points = outer[0] + inner[0]
     n = len(outer[0])
     return points, outer[1] + [(n + a, n + c, n + b) for a, b, c in inner[1]]

@@ -1,4 +1,4 @@
-"""--max-volume, --max-ratio and --layers: a true bound on every tetrahedron, by region too, an aim with its exceptions, elements across.
+"""--max-volume, --max-ratio and --layers: a strict bound on every tetrahedron, by region too; an aim with its exceptions; elements across.
 
     bounds_test.py PROGRAM [unittest options]
 """
@@ -84,7 +84,7 @@ class Bounds(CliTest):
         self.assertEqual(bounds["above_ratio"] > 0, bounds["worst_ratio"] > 1.2)
 
     def test_ratio_does_not_make_angles_smaller(self):
-        """Cylinders, whose least angle points for ratios lowered to 8 to 10 degrees."""
+        """Cylinders whose least angle was reduced to 8 to 10 degrees by points for ratios."""
         for around, rows, ratio in (8, 4, 1.2), (12, 3, 1.2), (12, 4, 1.0):
             ring = [(round(math.cos(2 * math.pi * i / around), 6), round(math.sin(2 * math.pi * i / around), 6))
                     for i in range(around)]

@@ -1,4 +1,4 @@
-"""What tests of the program `holdfast` from outside share.
+"""Common code of tests that run the program `holdfast`.
 
 A test file is run as `NAME_test.py PROGRAM [unittest options]`.
 """
@@ -28,7 +28,7 @@ def shifted(facets, by):
 
 
 def read_terminal(descriptor):
-    """What a terminal's other side wrote; nothing once that side is closed."""
+    """The output of a terminal's other side; nothing after that side is closed."""
     try:
         return os.read(descriptor, 65536)
     except OSError:

@@ -25,7 +25,7 @@ class Usage(CliTest):
             self.assertIn("Exit codes", self.run_program(command, "--help").stdout)
 
     def test_help_names_the_formats(self):
-        """Those of volumes that messages list, but for other endings of the same."""
+        """Those of volumes that messages list, except other endings of the same format."""
         self.run_program("mesh", "cube.off", "-o", "a.vtu")
         known = {
             "written": self.run_program("mesh", "cube.off", "-o", "a.none", expect=2).stderr,
@@ -197,7 +197,7 @@ class Mesh(CliTest):
                 told = self.run_program("mesh", "cube.off", "-o", "a.vtu", *asked, expect=5).stderr
                 self.assertIn(word + " takes more than 2^30 tetrahedra", told)
                 self.assertEqual(self.files(), ["cube.off", "f.pos", "m.pos"])
-        # Fine at one end alone.
+        # Fine at one end only.
         self.write("f.pos", 'View "f" {\nSS(0,0,0, 3,0,0, 0,3,0, 0,0,3){1e-9,1,1,1};\n};\n')
         self.run_program("mesh", "cube.off", "-o", "a.vtu", "--size-field", "f.pos")
 
@@ -525,7 +525,7 @@ class Examples(CliTest):
         self.assertLess(count[()], 1.5 * count[("--fill",)])
         self.assertGreater(count[("--gradation", "0.3")], 1.8 * count[("--fill",)])
         self.assertGreater(count[("--no-growth",)], 1.8 * count[("--fill",)])
-        # A size beyond all that the surface allows asks for nothing, and a smaller one is kept to.
+        # A size above all that the surface allows has no effect, and a smaller one is respected.
         self.assertAlmostEqual(count[("--size", "1000")] / count[()], 1, delta=0.03)
         self.assertGreater(count[("--size", "3")], 2 * count[()])
 

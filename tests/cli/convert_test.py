@@ -174,7 +174,7 @@ class Convert(CliTest):
         for source in ("bad.vtu", "empty.stl", "missing.msh"):
             self.run_program("convert", source, "out.mesh", expect=3)
             self.run_program("info", source, expect=3)
-        for command in ["convert"], ["mesh", "-o"]:  # it names what is for surfaces alone, too, and each once
+        for command in ["convert"], ["mesh", "-o"]:  # it also names options for surfaces only, and each once
             said = self.run_program(command[0], "cube.off", *command[1:], "out.docx", expect=2).stderr
             self.assertIn("'.docx' is no format to write", said)
             self.assertEqual([said.count(f" {ending} ") for ending in (".off", ".stl", ".vtu")], [1, 1, 1])

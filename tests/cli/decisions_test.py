@@ -1,4 +1,4 @@
-"""What `holdfast mesh` decides for its user, told on standard error and in the report.
+"""Decisions that `holdfast mesh` makes for its user, reported on standard error and in the report.
 
     decisions_test.py PROGRAM [unittest options]
 """
@@ -8,7 +8,7 @@ from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, shifted
 
 
 def without_integer_points(offset):
-    """The polyhedron of design section 4: without a mesh in doubles at 2^52."""
+    """The polyhedron of docs/concepts.md that has no mesh in doubles at 2^52."""
     points = [(2, 1, 0), (1, 1, 3), (1, 2, 1), (3, 2, 2), (0, 0, 3), (2, 1, 3)]
     facets = [(0, 1, 2), (3, 4, 5)]
     for k in range(3):
@@ -108,7 +108,7 @@ class Decisions(CliTest):
         self.assertNotIn("no triangle", self.mesh("cube.off")[0])
 
     def test_open_borders_are_named_where_there_are_some(self):
-        """A hole that takes everything, and a vertex outside, are no matter of borders."""
+        """A hole that removes everything, and a vertex outside, have nothing to do with borders."""
         said = self.run_program("mesh", "cube.off", "-o", "a.vtu", "--hole", "0.4,0.5,0.6", expect=4).stderr
         self.assertNotIn("open borders", said)
         self.write("apart.off", off(CUBE_POINTS + [(9, 9, 9)], CUBE_FACETS))

@@ -14,7 +14,7 @@ from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, cube, main, off, shifted
 
 
 def copy_volume(source, target):
-    """With what bounds it, in the file beside."""
+    """With its boundary, in the second file."""
     for end in (".vtu", "_surface.vtu"):
         shutil.copy(source.with_name(source.stem + end), target.with_name(target.stem + end))
 

@@ -1,4 +1,4 @@
-"""No file is lost: what is written, where, and what is left of a run that fails.
+"""No file is lost: which files are written, where, and what remains after a failed run.
 
     files_test.py PROGRAM [unittest options]
 """
@@ -22,7 +22,7 @@ SOL = "MeshVersionFormatted 2\nDimension 3\nSolAtVertices 4\n1 1\n1\n1\n1\n1\nEn
 
 
 class NothingIsOverwritten(CliTest):
-    """Each command line names one file twice; nothing may change, and nothing may be done first."""
+    """Each command line names one file twice; nothing may change, and no work may be done first."""
 
     def refuse(self, *arguments, named):
         before = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
@@ -65,13 +65,13 @@ class NothingIsOverwritten(CliTest):
     def test_files_that_go_together(self):
         for name, text in [("tet.node", NODE), ("tet.ele", ELE), ("tet.edge", "0 0\n"), ("tet.face", "0 0\n")]:
             self.write(name, text)
-        # What is written beside -o.
+        # Outputs other than -o.
         for beside in ("new.ele", "new.face", "new.edge"):
             self.refuse("mesh", "cube.off", "-o", "new.node", "--report", beside, named=[beside])
         os.symlink("tet.ele", self.folder / "new.edge")
         self.refuse("untangle", "tet.node", "-o", "new.node", named=["new.edge"])
         os.remove(self.folder / "new.edge")
-        # What is read beside the input.
+        # Inputs other than the surface.
         for beside in ("tet.ele", "tet.face", "tet.edge"):
             self.refuse("untangle", "tet.node", "-o", "out.vtu", "--report", beside, named=[beside])
             self.refuse("check", "cube.off", "tet.ele", "--report", beside, named=[beside])
@@ -82,7 +82,7 @@ class NothingIsOverwritten(CliTest):
         self.write("tet.node", NODE)
         self.write("tet.poly", "# the vertices are elsewhere\n\n 0 3 0 0\n" + facets + "0\n0\n")
         self.refuse("mesh", "tet.poly", "-o", "tet.node", named=["tet.node"])
-        # With vertices of its own it does not read the .node file, and may be meshed twice.
+        # With its own vertices it does not read the .node file, and may be meshed twice.
         self.write("own.poly", NODE + facets + "0\n0\n")
         for _ in range(2):
             self.run_program("mesh", "own.poly", "-o", "own.node", "--fill")
@@ -93,7 +93,7 @@ class NothingIsOverwritten(CliTest):
         for command in (["mesh", "--surface-of", "job.inp", "-o"], ["convert", "job.inp"]):
             self.assertIn("would overwrite the input", self.run_program(*command, "all.inp", expect=2).stderr)
             self.run_program(*command, "other.inp")
-        # What an output is to replace is no input.
+        # A file that an output will replace is not an input.
         self.run_program("convert", "all.inp", "job.inp")
 
     def test_size_fields(self):
@@ -140,7 +140,7 @@ class StandardStreams(CliTest):
         surface = (self.folder / "cube.off").read_bytes()
         for kind in ("vtu", "vtk", "mesh", "meshb", "msh"):
             with self.subTest(kind):
-                # A pipe has room for one file alone.
+                # A pipe has room for one file only.
                 self.run_program("mesh", "cube.off", "-o", f"a.{kind}", "--fill", "-q",
                                  *(["--one-file"] if kind == "vtu" else []))
                 expected = (self.folder / f"a.{kind}").read_bytes()
@@ -191,7 +191,7 @@ class StandardStreams(CliTest):
         self.assertEqual(self.files(), ["cube.off"])
 
     def test_stdout_is_written_where_it_stands(self):
-        """A file that stdout leads to is neither replaced nor begun anew."""
+        """A file to which stdout is redirected is neither replaced nor truncated."""
         path = self.write("log", "before\n")
         with path.open("ab") as log:
             self.pipe("mesh", "cube.off", "-o", "/dev/stdout", "--format", "mesh", "--fill", stdout=log)
@@ -208,7 +208,7 @@ class StandardStreams(CliTest):
         self.assertEqual(ended.returncode, 0)
 
     def test_sockets(self):
-        """What inetd and some runtimes start programs with; it cannot be opened by name."""
+        """As inetd and some runtimes start programs; it cannot be opened by name."""
         ours, theirs = socket.socketpair()
         with theirs:
             process = subprocess.Popen([self.program, "mesh", "-", "-o", "-", "--fill", "--input-format", "off",
@@ -248,7 +248,7 @@ class StandardStreams(CliTest):
         self.assertTrue((self.folder / "fifo").is_fifo())
 
     def test_closed_streams_get_no_messages(self):
-        """Without stderr, say, a file that is opened must not become it."""
+        """If stderr is closed, for example, a file that is opened must not become stderr."""
         for closed in ([2], [1], [0], [0, 1, 2]):
             with self.subTest(closed):
                 def close(descriptors=tuple(closed)):
@@ -298,7 +298,7 @@ class FailuresLeaveNothing(CliTest):
         self.assertEqual(self.files(), ["cube.off", "slab.off"])
 
     def test_a_listing_that_nobody_reads_is_3(self):
-        # Every vertex lies in a facet of a copy that is moved within the plane.
+        # Every vertex lies in a facet of a copy that is shifted within the plane.
         process = subprocess.Popen([self.program, "diagnose", "slab.off", "cube.off"], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         process.stdout.close()
@@ -346,7 +346,7 @@ class FailuresLeaveNothing(CliTest):
 
 class Signals(CliTest):
     def busy(self, *arguments, ignored=()):
-        """A run that ends by itself only after minutes, once it has begun."""
+        """A run, after it has begun, that would take minutes."""
         n = 60
         points = [(x, y, 1e-3 * ((7 * x * y) % 5)) for x in range(n) for y in range(n)]
         facets = [t for x in range(n - 1) for y in range(n - 1)
@@ -406,7 +406,7 @@ class Signals(CliTest):
         os.close(full)
 
     def test_a_writer_that_is_hung_up_on_leaves_nothing(self):
-        """A second request ends the program at once, also while it writes, and is told so here by a full pipe."""
+        """A second request ends the program at once, also while it writes; here it is blocked by a full pipe."""
         os.mkfifo(self.folder / "fifo")
         process = subprocess.Popen([self.program, "mesh", "cube.off", "-o", "fifo", "--format", "mesh", "--fill"],
                                    cwd=self.folder, stderr=subprocess.PIPE)

@@ -1,4 +1,4 @@
-"""What the program says of files: what is left out, what a format does not hold, what is not finite, packed files."""
+"""Messages about files: data that is left out, data that a format cannot hold, coordinates that are not finite, compressed files."""
 import gzip
 import json
 
@@ -101,7 +101,7 @@ class Formats(CliTest):
         pairs = list(zip(owner, neighbour))
         self.assertEqual(pairs, sorted(pairs))
         self.assertTrue(all(a < b for a, b in pairs))
-        # Written without packing into a folder that has packed files.
+        # Written uncompressed into a folder with compressed files.
         self.run_program("mesh", "cube.off", "-o", "other", "--format", "openfoam", "--fill")
         self.assertEqual(sorted(p.name for p in packed.iterdir()), names)
 

@@ -1,4 +1,4 @@
-"""A program that is killed while it writes: under the final name stands all of the new file, or all of the old one, or nothing.
+"""A program that is killed while it writes: the final name has the complete new file, or the complete old one, or nothing.
 
     killed_test.py PROGRAM [unittest options]
 """
@@ -15,7 +15,7 @@ RUNS = 24
 
 class Killed(CliTest):
     def knows_nameless_files(self):
-        """Whether the system has files that go with the process, so that no temporary file can stay."""
+        """Whether the system has files that disappear with the process, so that no temporary file can stay."""
         try:
             os.close(os.open(self.folder, os.O_TMPFILE | os.O_RDWR))
         except (AttributeError, OSError):
@@ -46,11 +46,11 @@ class Killed(CliTest):
                 self.assertIn(found, (whole, old), f"killed after {run} of {RUNS} parts of the time")
                 unfinished += found == old
                 if self.knows_nameless_files():
-                    # A file gets a name of its own before it gets the final one: killed between the two, it is whole.
+                    # A file gets a temporary name before the final one: if the program is killed between the two, it is complete.
                     for left in set(self.files()) - {"a.mesh", "cube.off", "p.xyz"}:
                         self.assertEqual((self.folder / left).read_bytes(), whole)
                         (self.folder / left).unlink()
-            self.assertGreater(unfinished, 0)  # or nothing was tested
+            self.assertGreater(unfinished, 0)  # otherwise nothing was tested
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ class Limits(CliTest):
         self.assertEqual(self.files(), before)
 
     def test_a_diagnosis_without_time_for_cures(self):
-        # Triangles of a square, apart from each other: cures take about twenty times as long as the diagnosis.
+        # Separate triangles of a square: cures take about twenty times as long as the diagnosis.
         chance, side, vertices = random.Random(1), 60, []
         for i in range(side):
             for j in range(side):
@@ -59,20 +59,20 @@ class Limits(CliTest):
         self.assertGreater(len(report["defects"]), 1000)
 
     def test_a_signal_ends_the_writing(self):
-        # A reader that does not read: the program waits in the middle of the file until it is told to end.
+        # A reader that does not read: the program waits in the middle of the file until it gets a signal.
         process = subprocess.Popen([self.program, "delaunay", "p.xyz", "-q", "-o", "/dev/stdout", "--format", "mesh"],
                                    cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         time.sleep(2)
         self.assertIsNone(process.poll())
         process.send_signal(signal.SIGINT)
-        said = process.communicate()[1].decode()  # reads what was written so far, and more if there was more
+        said = process.communicate()[1].decode()  # reads everything that was written
         self.assertEqual(process.returncode, 5)
         self.assertIn("cancelled", said)
 
     COMMANDS = (("mesh", "-o", "v.vtu"), ("mesh", "-o", "v.vtu", "--repair"), ("repair", "-o", "out.off"),
                 ("paste", "-o", "out.off"), ("plane", "-o", "out.off"), ("tetgen", "-p"))
 
-    # Whose reports tell how a run ended only where it did not end as it should.
+    # Their reports have the outcome only if the run did not end normally.
     LOOKING = (("check", "cube.off"), ("diagnose",), ("info",), ("delaunay", "-o", "v.vtu"))
 
     def test_a_limit_that_ends_the_reading_is_in_the_report(self):
@@ -173,7 +173,7 @@ class Limits(CliTest):
             self.assertFalse((self.folder / "out.mesh").exists())
 
     def test_a_signal_that_ends_the_reading_is_in_the_report(self):
-        """A pipe to which nobody writes, named or not, or not all of a file."""
+        """A pipe, named or not, to which nobody writes, or only a part of a file."""
         os.mkfifo(self.folder / "pipe.off")
         os.mkfifo(self.folder / "pipe.poly")
         self.run_program("delaunay", "p.xyz", "-o", "v.vtu")

@@ -1,4 +1,4 @@
-"""What is told of a surface that cannot be filled: the cause first, then the list, and what to do.
+"""Messages about a surface that cannot be filled: the cause first, then the list, and what to do.
 
     messages_test.py PROGRAM [unittest options]
 """
@@ -102,7 +102,7 @@ class DiagnoseAndMesh(CliTest):
 
 class Causes(CliTest):
     def test_a_crack_names_both_vertices_and_the_distance(self):
-        # The side z = 1 has corners of its own, which lie 2^-30 above those of the walls.
+        # The side z = 1 has separate corners, 2^-30 above those of the walls.
         above = [(x, y, 1 + 2**-30) for x, y, z in CUBE_POINTS if z == 1]
         lid = [tuple(v + 4 for v in f) for f in CUBE_FACETS[2:4]]
         self.write("crack.off", off(CUBE_POINTS + above, OPEN_FACETS + lid))
@@ -114,7 +114,7 @@ class Causes(CliTest):
         self.assertIn("lies 9.31e-10 from vertex", said)
 
     def test_unwelded_vertices_are_told_where_triangles_cross(self):
-        # The same, but that two of the corners lie below.
+        # The same, but with two of the corners below.
         lid = [(x, y, 1 + (2**-30 if x == y else -2**-30)) for x, y, z in CUBE_POINTS if z == 1]
         self.write("unwelded.off", off(CUBE_POINTS + lid, OPEN_FACETS + shifted(CUBE_FACETS[2:4], 4)))
         told = self.run_program("diagnose", "unwelded.off", "--report", "r.json", expect=4).stdout
@@ -125,7 +125,7 @@ class Causes(CliTest):
         self.assertEqual(report["summary"]["gaps"][0]["distance"], 2**-30)
 
     def test_a_t_junction_beside_a_border_is_told_as_a_crack(self):
-        # A vertex on the wall's upper side but for 1e-9, of a lid in three triangles.
+        # A vertex 1e-9 off the wall's upper side, of a lid of three triangles.
         points = CUBE_POINTS + [(0.5, 0, 1 + 1e-9)]
         lid = [(4, 8, 6), (8, 7, 6), (8, 5, 7)]
         self.write("t.off", off(points, OPEN_FACETS + lid))
@@ -203,7 +203,7 @@ class LongLists(CliTest):
         self.assertEqual(said.count("does nothing"), 3)
         said = self.run_program("convert", "v.vtu", "w.vtu", *names).stderr
         self.assertEqual(said.count("does nothing"), 3)
-        # The mesh of a surface without seeds numbers its regions, so that its names may have a meaning yet.
+        # The mesh of a surface without seeds numbers its regions, so names may refer to them later.
         said = self.run_program("convert", "cube.off", "s.off", "--name", "region:7=x", "--name", "3=wall").stderr
         self.assertEqual((said.count("does nothing"), said.count("region:7")), (1, 0))
         self.assertNotIn("does nothing", self.run_program("mesh", "cube.off", "-o", "v.vtu", "-q", *names).stderr)

@@ -1,4 +1,4 @@
-"""Options of `holdfast mesh` that make no sense, or do nothing together: exit 2 before any file is read.
+"""Options of `holdfast mesh` that make no sense, or have no effect together: exit 2 before any file is read.
 
     options_test.py PROGRAM [unittest options]
 """
@@ -6,7 +6,7 @@ import subprocess
 
 from cli_case import CliTest, main
 
-# The option that does nothing, as the message names it, and what makes it so.
+# The option without effect, as in the message, and the reason.
 IDLE = [
     ("--size", ["--fill", "--size", "0.5"]),
     ("--gradation", ["--fill", "--gradation", "0.2"]),
@@ -63,7 +63,7 @@ class Options(CliTest):
     def test_options_that_do_nothing_together_are_2(self):
         for option, arguments in IDLE:
             with self.subTest(arguments):
-                # No file is read: else it would be 3.
+                # No file is read: otherwise it would be 3.
                 said = self.run_program("mesh", "missing.off", "-o", "out.vtu", *arguments, expect=2).stderr
                 self.assertIn(option, said)
 
@@ -74,7 +74,7 @@ class Options(CliTest):
                 self.assertIn(option, said)
 
     def test_an_empty_value_is_none(self):
-        """As `--size "$H"` where H is not set."""
+        """As `--size "$H"` if H is not set."""
         for option in "--size", "--gradation", "--max-ratio", "--time-limit", "--seed", "--format", "--report", "--quality", "--layers":
             said = self.run_program("mesh", "cube.off", "-o", "a.vtu", option, "", expect=2).stderr
             self.assertIn(option, said)

@@ -1,4 +1,4 @@
-"""--order 2 and --curved: mid-edge nodes in every format that holds them, read back by others where they are installed.
+"""--order 2 and --curved: mid-edge nodes in every format that holds them, read by other programs if they are installed.
 
     order_test.py PROGRAM [unittest options]
 """
@@ -10,7 +10,7 @@ from pathlib import Path
 
 from cli_case import CUBE_FACETS, CUBE_POINTS, CliTest, main, off
 
-# The edges of a tetrahedron in the order in which a format has their nodes.
+# The edges of a tetrahedron in the order of their nodes in each format.
 VTK = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
 GMSH = [(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3)]
 TETGEN = [(2, 3), (0, 3), (0, 1), (1, 2), (1, 3), (0, 2)]

@@ -53,7 +53,7 @@ class Partitioned(CliTest):
                               check=False).stderr
 
     def write_two(self):
-        """Two boxes side by side, with a marker each and one between them."""
+        """Two adjacent boxes, with a marker each and one between them."""
         facets = [(f, 1) for f in CUBE_FACETS]
         points = CUBE_POINTS + [(2, 0, 0), (2, 1, 0), (2, 0, 1), (2, 1, 1)]
         number = {p: i for i, p in enumerate(points)}

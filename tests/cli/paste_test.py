@@ -159,7 +159,7 @@ class PasteTest(CliTest):
                         + "0\n1\n0 1.5 0.5 0.5 1 -1\n")
         _, _, tets, report, _ = self.mesh(["a.off", "b.poly"])
         self.assertEqual({r for _, r in tets}, {1, 2})
-        self.assertEqual(report["parts"][1]["region"], 1)  # its own; the first file gets the next free number
+        self.assertEqual(report["parts"][1]["region"], 1)  # the id in the file; the first file gets the next free number
         self.assertEqual(report["parts"][0]["region"], 2)
         self.run_program("check", "a.off", "b.poly", "out.mesh")
 
@@ -222,7 +222,7 @@ class PasteTest(CliTest):
         self.assertRegex(ended.stderr, r"a\.off and b\.off do not touch: they are 0\.5 apart")
         self.assertEqual([w["message"][:5] for w in report["warnings"]], ["a.off"])
 
-    # --- parts that are cut differently --------------------------------------------------------------
+    # --- parts with different triangles --------------------------------------------------------------
 
     def require_pasted(self, parts, *options, interfaces, exact=True, places=12):
         """Meshes the parts, checks the mesh against the pasted surface, and compares volumes and areas."""
@@ -361,7 +361,7 @@ class PasteTest(CliTest):
         self.assertFalse((self.folder / "x.mesh").exists())
 
     def test_a_part_that_is_as_small_as_coordinates_are_rounded_opens_another(self):
-        """It was delivered open so far, and the mesher then told of triangles outside every region."""
+        """It used to be open, and the mesher then reported triangles outside every region."""
         e = 2.0**-23
         names = self.parts(box((0, 0, 0), (1, 1, 1), 1), box((1 - 4 * e, 1 - 4 * e, 1 + e), (1 - 3 * e, 1 - 3 * e, 1 + 2 * e), 1))
         for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste", "--overlap", "first", expect=7),
@@ -372,7 +372,7 @@ class PasteTest(CliTest):
         self.assertEqual(json.loads((self.folder / "r.json").read_text())["outcome"], "not_representable")
 
     def test_a_corner_near_to_a_crossing_may_be_far_from_a_side(self):
-        """A side was led through a corner 0.04 away from it, since the other that it crossed there ended in it."""
+        """A side was routed through a corner 0.04 away from it, since the other side that crosses it there ends in it."""
         parts = box((0.2, 0.8, 0), (1, 1, 0.6), (4, 1, 3)), box((0.76, 0, 0), (1, 0.8, 0.48), (2, 1, 3))
         points, _, tets, _, _ = self.mesh(self.parts(*parts), "--paste=0.03")
         for k, part in enumerate(parts):
@@ -385,14 +385,14 @@ class PasteTest(CliTest):
                       ended.stderr)
 
     def box_and_edge(self, x, d):
-        """A box, and a prism with a side that runs d above it."""
+        """A box, and a prism with a side at the distance d above it."""
         turned, triangles = cylinder(0.5, 0.2, 0.8, 3, turn=0.1)
         up = 1 - min(p[1] for p in turned)
         prism = [(a + x, b + up - d, c + d) for a, b, c in turned], triangles
         return rotated(box((0, 0, 0), (1, 1, 1), 2)), rotated(prism)
 
     def test_side_near_a_face_leaves_no_part_open(self):
-        """Sides led twice left the prism open: the pieces of one of its facets were folded onto each other."""
+        """Sides that were routed twice left the prism open: the pieces of one of its facets were folded onto each other."""
         parts = self.box_and_edge(0.7, -0.0002)
         points, _, tets, _, _ = self.mesh(self.parts(*parts), "--paste=0.001")
         found = volumes(points, tets)
@@ -407,12 +407,12 @@ class PasteTest(CliTest):
             found = volumes(points, tets)
             self.assertEqual(set(found), {1, 2})
             self.assertAlmostEqual(found[1], expected, delta=0.003)
-        # One that is thicker is refused as ever.
+        # A thicker one is still refused.
         names = self.parts(*self.box_and_edge(0.7, 0.1))
         self.assertIn("overlap by", self.mesh(names, "--paste=0.001", expect=4).stderr)
 
     def test_the_distance_that_is_told_holds_where_only_last_bits_are_moved(self):
-        """A round face as a fan, and in two rings: points of one lie some last bits beside the sides of the other."""
+        """A round face as a fan, and in two rings: points of one are some last bits off the sides of the other."""
         rim = [(25.4 * math.cos(2 * math.pi * k / 8), 25.4 * math.sin(2 * math.pi * k / 8), 0.0) for k in range(8)]
         rings = [[(s * x, s * y, 0.0) for x, y, _ in rim] for s in (2 / 3, 1 / 3)]
         fan = rim + [(0.0, 0.0, 0.0), (0.0, 0.0, 20.0)], [t for k in range(8) for t in ((k, 8, (k + 1) % 8), (k, (k + 1) % 8, 9))]
@@ -428,7 +428,7 @@ class PasteTest(CliTest):
         self.assertLess(json.loads((self.folder / "p.json").read_text())["max_displacement"], 1e-14)
 
     def test_a_tolerance_changes_valid_surfaces_too(self):
-        """A tetrahedron in a box, from one of its corners, is valid as it is: triangles there come out turned round."""
+        """A tetrahedron in a box, from one of its corners, is valid: the common triangles have opposite orientations."""
         inside = [(0, 0, 0), (0.5, 0.2, 0.2), (0.2, 0.5, 0.2), (0.2, 0.2, 0.5)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
         names = self.parts(box((0, 0, 0), (1, 1, 1), 1), inside)
         self.run_program("paste", *names, "-o", "pasted.off", "--parents", "p.txt", "--report", "p.json",
@@ -436,7 +436,7 @@ class PasteTest(CliTest):
         self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
 
     def test_a_tolerance_below_the_rounding_of_coordinates_bounds_no_move(self):
-        """Floats of one plane, turned: they are further from each other than the tolerance."""
+        """Floats of one plane, rotated: they are further from each other than the tolerance."""
         parts = [as_float32(rotated(box(low, high, n))) for low, high, n in
                  (((0, 0, 0), (1, 1, 1), 2), ((1, 0, 0), (2, 1, 1), 3))]
         names = self.parts(*parts)
@@ -445,7 +445,7 @@ class PasteTest(CliTest):
         self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
 
     def write_patches(self, name, part, order):
-        """Solids minX and so on of an STL file, in an order."""
+        """Solids minX and so on of an STL file, in the given order."""
         points, triangles = part
         text = ""
         for patch in order:
@@ -607,7 +607,7 @@ class PasteTest(CliTest):
             self.run_program("mesh", name, "-o", name[0] + ".vtu", "--fill")
         said = self.run_program("paste", "a.vtu", "b.vtu", "-o", "ab.vtu").stderr
         self.assertIn("region 1 of a.vtu and of b.vtu is one; to keep them apart", said)
-        self.run_program("convert", "b.vtu", "c.vtu", "--name", "region:1=c")  # as the message says
+        self.run_program("convert", "b.vtu", "c.vtu", "--name", "region:1=c")  # as the message proposes
         self.assertNotIn("is one", self.run_program("paste", "a.vtu", "c.vtu", "-o", "ac.mesh").stderr)
         points, _, tets = read_mesh(self.folder / "ac.mesh")
         self.assertEqual({r: round(v, 12) for r, v in volumes(points, tets).items()}, {1: 1, 2: 1})

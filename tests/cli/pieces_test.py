@@ -120,7 +120,7 @@ class Pieces(CliTest):
             grid(CORNERS[::-1], [(3, 0, 2, 1)], [("Int64", "GlobalPointIds", (14, 13, 12, 11, 10))],
                  [("UInt8", "vtkGhostType", (0,)), ("Int32", "region", (2,))])))
         self.assertEqual(self.mesh("g.vtu")[1:], self.mesh("p.vtu")[1:])
-        # The pieces of a .pvtu may have pieces of their own.
+        # The pieces of a .pvtu may consist of pieces.
         self.write("q.pvtu", index("g.vtu"))
         self.assertEqual(self.mesh("q.pvtu")[1], self.mesh("p.vtu")[1])
 

@@ -1,4 +1,4 @@
-"""Vertices at one place are one vertex, in every format: files as programs write them that split vertices at seams."""
+"""Vertices at one place are one vertex, in every format: files from programs that split vertices at seams."""
 import json
 import re
 import struct
@@ -32,7 +32,7 @@ def numbers(values):
 
 
 def obj_with_repeated_v():
-    """One `v` a corner, with texture coordinates and normals, as exporters of rendering programs write."""
+    """One `v` per corner, with texture coordinates and normals, as exporters of rendering programs write."""
     points, normals, facets = cracked()
     lines = [f"v {numbers(p)}" for p in points] + [f"vn {numbers(n)}" for n in normals]
     lines += ["vt 0 0", "vt 1 0", "vt 1 1", "vt 0 1"]

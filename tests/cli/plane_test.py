@@ -78,7 +78,7 @@ class Triangles(CliTest):
             self.assertEqual({v for t in triangles for v in t}, set(range(7)))
 
     def test_the_method_named_does_the_work(self):
-        # Two rows of points whose Delaunay edges go up and down; the segment goes along them.
+        # Two rows of points with a zigzag of Delaunay edges between them; the segment runs along it.
         points = [(-10.0, 0.5), (21.0, 0.5)] + [(float(i), 0.0) for i in range(12)] + [(i + 0.5, 1.0) for i in range(12)]
         outline = [1] + list(range(3, 15)) + [2] + list(range(26, 14, -1))
         segments = [(outline[i], outline[(i + 1) % 26]) for i in range(26)] + [(1, 2)]
@@ -121,7 +121,7 @@ class Triangles(CliTest):
         self.run_program("plane", "in.poly", "-o", "out.off", "--method", "partition", "--stop-after", "swap=1", expect=2)
 
     def test_order(self):
-        # Seven segments side by side through a pencil: from the top, points beget points; from the middle, fewer.
+        # Seven parallel segments through a pencil: from the top, points lead to more points; from the middle, to fewer.
         low, high, most = [(float(i), 0.0) for i in range(-8, 9)], [(0.0, 2.0)], 7
         sides = [(x, 2.0 - 0.25 * (k + 1)) for k in range(most) for x in (-40.0, 40.0)]
         points = low + high + sides
@@ -201,7 +201,7 @@ class Refined(CliTest):
         for _, a, b, marker in numbers["edge"][1:]:
             x, y = ((at[a][k] + at[b][k]) / 2 for k in range(2))
             self.assertEqual(marker, 7 if y == 0 else 0 if x == 4 else 9)
-        # What came with markers keeps them.
+        # Points with markers keep them.
         self.write("in.poly", marked.replace("4 2 0 0\n", "4 2 0 1\n").replace("1 0.0 0.0\n", "1 0.0 0.0 5\n").replace("2 4.0 0.0\n", "2 4.0 0.0 0\n")
                    .replace("3 4.0 4.0\n", "3 4.0 4.0 0\n").replace("4 0.0 4.0\n", "4 0.0 4.0 0\n"))
         self.run_program("plane", "in.poly", "-o", "out.node", "--size", "1")
@@ -225,7 +225,7 @@ class Refined(CliTest):
 
 
 class InSpace(CliTest):
-    """Polygons in planes in space: the points come out bit for bit."""
+    """Polygons in planes in space: the points are unchanged, bit for bit."""
 
     CORNERS = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (2.0, 1.0), (0.0, 3.0)]
 
@@ -262,7 +262,7 @@ class InSpace(CliTest):
         ring = [(math.cos(2 * math.pi * i / 60), math.sin(2 * math.pi * i / 60)) for i in range(60)]
         sides = [(i + 1, (i + 1) % 60 + 1) for i in range(60)]
         for points in ([(x, y, 5.0) for x, y in ring], [(round(x, 6), round(y, 6), round(x - 0.3 * y + 1, 6)) for x, y in ring]):
-            self.obj(points, [], sides)  # the second in a plane but for rounding to six digits
+            self.obj(points, [], sides)  # the second in a plane up to rounding to six digits
             self.run_program("plane", "in.obj", "-o", "out.off")
             back, triangles = read_off(self.folder / "out.off")
             self.assertEqual((back, len(triangles)), (points, 58))
@@ -270,7 +270,7 @@ class InSpace(CliTest):
     def test_segments_that_lie_in_no_plane(self):
         points = [(x, y, z) for z in (0.0, 1.0) for x, y in ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))]
         polygons = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5)]
-        self.obj(points, polygons, [(1, 2), (6, 2)])  # sides of polygons stand by themselves
+        self.obj(points, polygons, [(1, 2), (6, 2)])  # sides of polygons are segments, too
         self.run_program("plane", "in.obj", "-o", "out.off")
         self.assertEqual(len(read_off(self.folder / "out.off")[1]), 6)
         self.obj(points, polygons, [(1, 2), (3, 7)])
@@ -304,7 +304,7 @@ class InSpace(CliTest):
         self.assertEqual(read_off(self.folder / "out.off")[0], points)
 
     def prism(self, name, low, high):
-        """With five corners, one reflex, whose upper one of the lower and the upper polygon is 0.01 off."""
+        """With five corners, one reflex; the upper corner of the lower and of the upper polygon is 0.01 off."""
         points = [(u, v, z + (0.01 if u == 2 else 0.0)) for z in (low, high) for u, v in self.CORNERS]
         polygons = [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9]] + [[k, (k + 1) % 5, 5 + (k + 1) % 5, 5 + k] for k in range(5)]
         self.off(points, polygons, name)
@@ -366,7 +366,7 @@ class Refused(CliTest):
         self.refused(SQUARE[:3] + [(float("nan"), 1.0)], RING[:3], "point 4 (nan, 1) is not finite")
 
     def test_millions_of_crossings_end_soon(self):
-        # Told are a hundred of a kind, and no more are looked for: all would take a dozen seconds.
+        # A hundred of a kind are reported, and the search then ends: all would take a dozen seconds.
         numbers = random.Random(1)
         points = [(numbers.random(), numbers.random()) for _ in range(10_000)]
         segments = [(2 * i + 1, 2 * i + 2) for i in range(5_000)]
@@ -412,12 +412,12 @@ class Refused(CliTest):
             for method in ("ears", "swaps", "partition"):
                 said = self.run_program("plane", "in.poly", "-o", "out.off", "--method", method, expect=4).stderr
                 self.assertIn(f"hole 1 ({hole[0]:g}, {hole[1]:g}) lies on segment", said)
-        # Ears have no triangle at a segment outside, and are told all the same.
+        # The method ears has no triangle at a segment outside, and reports it anyway.
         self.write("in.poly", poly(SQUARE + [(6, 0), (6, 4)], RING[:4] + [(5, 6)], holes=[(6.0, 2.0)]))
         for method in ("ears", "swaps", "partition"):
             said = self.run_program("plane", "in.poly", "-o", "out.off", "--method", method, expect=4).stderr
             self.assertIn("hole 1 (6, 2) lies on segment", said)
-        # On a side of the hull alone it is in no region.
+        # A segment that is only a side of the hull is in no region.
         self.write("in.poly", poly(SQUARE, [(1, 3)], holes=[(2.0, 0.0)]))
         self.run_program("plane", "in.poly", "-o", "out.off", "--hull")
         self.write("in.poly", poly(SQUARE, RING[:4], holes=[(math.nan, 0.0)]))

@@ -44,7 +44,7 @@ class ProgressOnATerminal(CliTest):
         self.assertEqual(percents, sorted(percents))
         self.assertGreater(percents[-1], 50)
         self.assertGreater(len({stage for stage, _, _ in bars}), 2)
-        # It is gone in the end: what is left is the last line.
+        # It disappears in the end: only the last line remains.
         self.assertRegex(shown, r"\r +\rout\.vtu: ")
         self.assertNotIn("\n", shown[:shown.rindex("\rout.vtu")])
 

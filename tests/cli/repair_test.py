@@ -1,4 +1,4 @@
-"""`holdfast repair` and `holdfast check --repaired` from outside: what repair makes passes, what was tampered with does not.
+"""`holdfast repair` and `holdfast check --repaired` from outside: results of repair pass, manipulated ones do not.
 
     repair_test.py PROGRAM [unittest options]
 """
@@ -19,7 +19,7 @@ def read_off(text):
 
 
 def two_cubes(by=(0.3, 0.41, 0.37)):
-    """Two cubes that cross in edges whose ends are no doubles."""
+    """Two cubes that cross in edges whose ends are not doubles."""
     turned = [(0.9 * x - 0.2 * y + by[0], 0.15 * x + 0.95 * y + by[1], z + 0.1 * x + by[2]) for x, y, z in cube()]
     return cube() + turned, CUBE_FACETS + shifted(CUBE_FACETS, 8)
 
@@ -53,7 +53,7 @@ class Repaired(CliTest):
         self.write("r.json", json.dumps(report))
 
     def both_files(self, report):
-        """The report, and a file of parents that says the same."""
+        """The report, and an equivalent file of parents."""
         self.write_report(report)
         lines = [f"# max_displacement {report['max_displacement']!r}"]
         lines += [f"# moved {m['vertex']} {m['distance']!r}" for m in report["moved"]]
@@ -76,7 +76,7 @@ class WhatIsMade(Repaired):
         self.assertGreater(self.report()["max_displacement"], 0)
 
     def test_isolated_vertices(self):
-        """A face of one corner in OFF: written again where nothing came to use the vertex, with a line of its own."""
+        """A face of one corner in OFF: written again if nothing uses the vertex, with a separate line."""
         points = cube() + [(0.5, 0.5, 0.5), (0.5, 0.25, 0.5)]
         self.write("in.off", off(points, [*CUBE_FACETS, (8,), (9,)]))
         self.repair("in.off")
@@ -153,7 +153,7 @@ class WhatIsMade(Repaired):
         self.assertIn("diagnose", said)
 
     def test_triangles_that_were_written_one_by_one(self):
-        # Each triangle of a torus is some 1e-12 larger than it was, and has corners of its own.
+        # Each triangle of a torus is enlarged by some 1e-12, and has separate corners.
         def at(i, j):
             u, v = (2 * math.pi * k / n for k, n in ((i, 20), (j, 15)))
             return ((3 + math.cos(v)) * math.cos(u), (3 + math.cos(v)) * math.sin(u), math.sin(v))
@@ -173,8 +173,8 @@ class WhatIsMade(Repaired):
         self.run_program("mesh", "out.off", "-o", "out.mesh", "--drop-outside")
 
     def test_triangles_that_overlap_in_turned_planes(self):
-        # A cube of 4 by 4 squares a face, turned, each of its triangles a thousandth larger: all those of a face
-        # overlap in one plane but for rounding, with sides in one line but for that.
+        # A rotated cube of 4 by 4 squares per face, each triangle enlarged by a thousandth: all triangles of a face
+        # overlap in one plane up to rounding, with sides that are collinear up to rounding.
         def turned(p):
             c, s = math.cos(0.3), math.sin(0.3)
             x, y, z = c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]
@@ -203,7 +203,7 @@ class WhatIsMade(Repaired):
         self.assertGreater(self.report()["max_displacement"], 1)
 
     def test_holes_that_a_union_takes_with_their_borders(self):
-        # Two triangles cross: the border of what is open goes through points that the union drops.
+        # Two triangles cross: the border of the hole passes through points that the union drops.
         points = [(-1, -1, 0), (1, -1, 0), (0, 1, 0), (-1, 0, -1), (1, 0, -1), (0, 0, 1)]
         self.write("in.off", off(points, [(0, 1, 2), (3, 4, 5)]))
         said = self.run_program("repair", "in.off", "-o", "out.off", "--report", "r.json", "--union", "--fill-holes").stderr
@@ -277,7 +277,7 @@ class WhatWasTamperedWith(Repaired):
         self.assertIn("children near", self.broken("in.off"))
 
     def test_a_parent_is_missing(self):
-        """Of each triangle in turn: its place is covered all the same, but not by a child."""
+        """For each triangle in turn: its place is still covered, but not by a child."""
         report = self.report()
         for f, own in enumerate(report["parents"]):
             other = next(p for p in range(24) if p not in own)
@@ -403,7 +403,7 @@ class Usage(Repaired):
 
 
 class Proposals(Repaired):
-    """What `diagnose` proposes cures what it found."""
+    """The proposals of `diagnose` cure the defects."""
 
     def cure(self, points, facets):
         self.write("in.off", off(points, facets))
@@ -448,7 +448,7 @@ class Proposals(Repaired):
         self.assertTrue(after["valid"])
 
     def test_a_side_is_led_through_vertices_on_both_of_its_sides(self):
-        # Led through the one alone, it would be twice as far from the other; where it passes the side between them, it gets a vertex.
+        # Routed through only one, it would be twice as far from the other; where it passes the side between them, it gets a vertex.
         points = [(0, 0, 0), (10, 0, 0), (5, -5, 0), (4.9, 0, 6.1e-6), (5.1, 0, -6.1e-6), (5, 5, 0)]
         cures, after = self.cure(points, [(0, 1, 2), (0, 3, 5), (3, 4, 5), (4, 1, 5)])
         self.assertEqual(cures["options"], "--weld 7e-06")
@@ -461,7 +461,7 @@ class Proposals(Repaired):
         self.assertEqual(after["cures"]["proposals"], [])
 
     def test_a_valid_surface_of_which_a_hole_stays_open(self):
-        # Of two cubes without their tops, a spike stands out of one.
+        # Two cubes without their tops; a spike protrudes from one.
         points = cube() + [(x + 3, y, z) for x, y, z in cube()]
         points += [(0.4, 0.4, 0.5), (0.6, 0.4, 0.5), (0.5, 0.6, 0.5), (0.5, 0.5, 1.5)]
         spike = [(16, 18, 17), (16, 17, 19), (17, 18, 19), (18, 16, 19)]
@@ -508,7 +508,7 @@ class MeshAtOnce(Repaired):
         self.assertEqual(len(self.report()["repair"]["moved"]), 4)
 
     def stack(self, seed, count=8, turn=None):
-        """Boxes stacked half in each other: sums of 0.05 make sheets that differ in their last bits, and no mesh in doubles."""
+        """Boxes that overlap by half: sums of 0.05 make sheets that differ in their last bits, and no mesh in doubles."""
         rng = random.Random(seed)
         points, facets = [], []
         low = 0.0
@@ -520,7 +520,7 @@ class MeshAtOnce(Repaired):
         self.write("in.off", off([turn(p) if turn else p for p in points], facets))
 
     def test_sheets_a_last_bit_apart_are_joined(self):
-        """No vertex moves for it. Welding does not help with the first: it has no vertices that near to each other."""
+        """No vertex moves. Welding does not help with the first: it has no vertices that close to each other."""
         for seed in 1, 3:
             self.stack(seed)
             said = self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--repaired", "out.off", "--report",

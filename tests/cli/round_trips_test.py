@@ -1,5 +1,5 @@
 """Every format into every other: counts, volumes, regions, markers and names come back, as far as a format holds them;
-and bad files of the formats that are of several files or in HDF5.
+and bad files of the formats with several files or HDF5.
 
     round_trips_test.py PROGRAM [unittest options]
 """
@@ -12,7 +12,7 @@ import subprocess
 
 from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
 
-# Of each format: whether it holds names, and regions with markers of their interface.
+# For each format: whether it holds names, and regions with markers of their interface.
 FORMATS = {"a.vtu": (True, True), "a.vtm": (True, True), "a.vtk": (True, True), "a.mesh": (False, True),
            "a.meshb": (False, True), "a.msh": (True, True), "a.inp": (True, True), "a.unv": (True, True),
            "a.bdf": (True, True), "a.su2": (True, False), "a.mfem": (True, True), "a.vol": (True, True),
@@ -114,7 +114,7 @@ class RoundTrips(CliTest):
 
     def test_what_is_several_files_or_a_volume_is_refused_elsewhere(self):
         for name in ("xdmf", "node", "vtm"):
-            with open(self.folder / "out", "wb") as out:  # a regular file, which has no other beside it all the same
+            with open(self.folder / "out", "wb") as out:  # a regular file, but without its second file
                 code = subprocess.run([self.program, "mesh", "cube.off", "-o", "-", "--format", name, "--fill"], cwd=self.folder,
                                       stdout=out, stderr=subprocess.DEVNULL, timeout=60, check=False).returncode
             self.assertEqual(code, 2)
@@ -208,7 +208,7 @@ class RoundTrips(CliTest):
         self.assertIn("node", self.run_program("info", "a.med", expect=3).stderr)
 
     def test_attributes_that_stand_in_a_heap(self):
-        """As HDF5 keeps those of a MED mesh since 1.8: an object has at most eight in its header."""
+        """As HDF5 stores those of a MED mesh since 1.8: an object has at most eight in its header."""
         self.mesh("a.med")
         script = ("import h5py\nold, new = h5py.File('a.med'), h5py.File('b.med', 'w', libver='latest')\n"
                   "[old.copy(name, new) for name in old]\n"

@@ -1,11 +1,11 @@
-"""The same input gives the same bits: meshes of surfaces that this file makes are compared with digests that are known
+"""The same input gives the same bits: compares meshes of surfaces that this file makes with known digests
 (tests/golden/bits.txt), or with those of another build of the program.
 
-    same_bits.py PROGRAM --golden FILE [--write]     --write: take these digests for the known ones
+    same_bits.py PROGRAM --golden FILE [--write]     --write: store these digests as the known ones
     same_bits.py PROGRAM --other PROGRAM
     same_bits.py PROGRAM --other PROGRAM --corpus DIR [--every N]     every N-th surface of a folder
 
-Surfaces are made by additions, multiplications, divisions and square roots, that is, of the same bits everywhere. A
+Surfaces are made by additions, multiplications, divisions and square roots, so with the same bits everywhere. A
 digest is that of a .meshb file, which holds the coordinates' bits, the tetrahedra and the regions, uncompressed.
 """
 import argparse
@@ -15,7 +15,7 @@ import struct
 import subprocess
 import sys
 import tempfile
-from math import sqrt  # exact but for one rounding; nothing else of math is
+from math import sqrt  # exact up to one rounding, unlike all else in math
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples"))
@@ -24,7 +24,7 @@ import make_paper  # noqa: E402
 
 
 class Lehmer:
-    """Random numbers that are a function of the seed on every platform."""
+    """Random numbers that depend only on the seed, on every platform."""
 
     def __init__(self, seed):
         self.state = seed
@@ -40,7 +40,7 @@ def scaled_to(p, length):
 
 
 def sphere(level, radius=1.0, at=(0.0, 0.0, 0.0), noise=0.0, seed=1):
-    """An octahedron refined, each vertex at the radius, or a little more or less."""
+    """A refined octahedron, each vertex at the radius, or slightly more or less."""
     points = [(1., 0., 0.), (-1., 0., 0.), (0., 1., 0.), (0., -1., 0.), (0., 0., 1.), (0., 0., -1.)]
     facets = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
     for _ in range(level):
@@ -82,7 +82,7 @@ def torus(n, m, radius=1.0, thickness=0.4):
 
 
 def prism():
-    """Schönhardt's, in whole numbers."""
+    """Schönhardt's, in integers."""
     points = [(60, 0, 0), (-30, 52, 0), (-30, -52, 0), (52, 30, 60), (-52, 30, 60), (0, -60, 60)]
     facets = [(0, 2, 1), (3, 4, 5)]
     for k in range(3):
@@ -119,7 +119,7 @@ def grid_sheet(n, height):
 
 
 def with_dangling(surface):
-    """A triangle, a chain of segments and a point inside, which touch nothing."""
+    """An isolated triangle, chain of segments and point inside."""
     points, facets = surface
     n = len(points)
     points = points + [(-.3, -.2, .1), (.3, -.25, .15), (.05, .4, .05), (0., 0., -.3), (.2, .1, -.35), (.1, -.3, -.2),
@@ -234,7 +234,7 @@ CASES = {
 
 
 def tangle(program, folder, name, share, reach):
-    """A filled sphere, some of whose inner vertices are thrown about."""
+    """A filled sphere with some inner vertices displaced."""
     source = folder / "untangled.mesh"
     if not source.exists():
         run(program, folder, "mesh sphere.mesh --size 0.4 -o untangled.mesh")
@@ -258,7 +258,7 @@ def run(program, folder, words):
 
 
 def as_version_3(data):
-    """A .meshb of version 2 with the positions of version 3, in which the known digests are."""
+    """A .meshb of version 2 with the positions of version 3, in which the known digests were made."""
     one, version = struct.unpack_from("<ii", data, 0)
     if (one, version) != (1, 2):
         return data
@@ -291,7 +291,7 @@ def digests(program, only=None):
 
 
 def compare_corpus(program, other, corpus, every):
-    """Both programs on surfaces of a folder; what differs is listed."""
+    """Both programs on surfaces of a folder; differences are listed."""
     different = 0
     with tempfile.TemporaryDirectory() as name:
         for path in sorted(p for p in Path(corpus).iterdir() if p.is_file())[::every]:

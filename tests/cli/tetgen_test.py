@@ -1,4 +1,4 @@
-"""`holdfast tetgen`: switches, and files named and numbered as TetGen does it.
+"""`holdfast tetgen`: switches, and files named and numbered as by TetGen.
 
     tetgen_test.py PROGRAM [unittest options]
 """
@@ -185,7 +185,7 @@ class Tetgen(CliTest):
         self.run_program("tetgen", "-pqm", "cube.off", expect=3)
 
     def test_the_convex_hull_is_filled(self):
-        # A block with a notch: hull faces that the surface covers in part, with other diagonals.
+        # A block with a notch: hull faces that the surface covers partly, with other diagonals.
         outline = [(0, 0), (4, 0), (4, 4), (3, 4), (2, 1), (1, 4), (0, 4)]
         points = [(x, y, z) for z in (0, 1) for x, y in outline]
         text = f"{len(points)} 3 0 0\n" + "".join(f"{i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points)) + "9 1\n"

@@ -1,4 +1,4 @@
-"""Two small pages from the committed bundle, opened in headless Chromium: skipped (77) where there is none.
+"""Two small pages from the committed bundle, opened in headless Chromium: skipped (77) if there is none.
 
 More is tested by `make web-test`, which needs npm.
 """

@@ -2,8 +2,8 @@
 
     documents.py SOURCE CXX CC LIBRARY FOLDER [FLAG...]
 
-Blocks of ```cpp and ```c that have a main are programs; each is given the names of a surface and of a volume to write,
-and must write it. Flags are the compilers': a library with sanitizers needs programs with the same.
+Blocks of ```cpp and ```c with a main are programs; each gets the names of a surface and of a volume, and must write the
+volume. Flags are for the compilers: a library with sanitizers needs programs with the same ones.
 """
 import os
 import re

@@ -1,5 +1,4 @@
-"""Fails unless a shared library exports the public functions, all of them and nothing else of the project, under the
-SONAME of its version.
+"""Fails unless a shared library exports exactly the public functions of the project, under the SONAME of its version.
 
     exports.py LIBRARY INCLUDE_FOLDER SOVERSION
 """
@@ -10,7 +9,7 @@ from pathlib import Path
 
 
 def without_templates(text):
-    """Without what stands in angle brackets."""
+    """Without the text in angle brackets."""
     while (shorter := re.sub(r"<[^<>]*>", "", text)) != text:
         text = shorter
     return text

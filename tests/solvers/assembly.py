@@ -12,7 +12,7 @@ AREAS = {1: 2.0, 2: 2.0, 3: 3.0, 4: 3.0, 5: 6.0, 6: 6.0, 7: 4.0}
 
 
 def box(low, high, spacing):
-    """The triangles of a box's six sides, as places, seen from outside, with their side's number; edges of `spacing`."""
+    """The triangles of a box's six sides, as places, facing outwards, with their side's number; edges of `spacing`."""
     triangles = []
     for side in range(6):
         axis, top = divmod(side, 2)
@@ -51,7 +51,7 @@ def write_surface(path, spacing):
 
 
 def mesh(program, folder, output, *options, size=0.5):
-    """Meshes the assembly into `output`; returns what the program said."""
+    """Meshes the assembly into `output`; returns the program's output."""
     surface = Path(folder) / f"assembly{size}.mesh"
     if not surface.exists():
         write_surface(surface, size)

@@ -1,10 +1,10 @@
-"""Solvers of several processes on meshes in pieces, beside one process on the whole mesh.
+"""Solvers on several processes with meshes in pieces, compared with one process on the whole mesh.
 
     partitioned.py PROGRAM [--write docs/scaling.md]
 
 DOLFINx (mpirun -n 2) reads a partitioned .xdmf and .msh, OpenFOAM (mpirun -n 2) a case with processorN, VTK a .pvtu and
 Gmsh a partitioned .msh: by METIS, and of a surface that was split, meshed in parts, and not joined. Exit code 0 if all
-agree, 1 if not, 77 where none of the programs is installed.
+agree, 1 if not, 77 if none of the programs is installed.
 """
 import argparse
 import os
@@ -176,7 +176,7 @@ def compare(program, folder, by_msh):
     run(program, "check", folder / "s.mesh", folder / "joined.vtu")
 
     def write(source, pieces):
-        """By METIS from a mesh; or the parts as they are."""
+        """By METIS from a mesh; or the parts themselves."""
         def to(path, *options):
             if pieces == 0:
                 run(program, "convert", source, path, *options)

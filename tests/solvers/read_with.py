@@ -1,7 +1,7 @@
-"""Reads a mesh file with one program and prints what that has found, as a line of JSON.
+"""Reads a mesh file with one program and prints the contents that it found, as a line of JSON.
 
 Usage: read_with.py PROGRAM FILE. Keys: points, tetrahedra, volumes (by region), areas (by marker), region_names and
-marker_names (ids by name); a key is missing where the program has no such thing.
+marker_names (ids by name); a key is missing if the program has no such data.
 """
 import collections
 import json
@@ -56,7 +56,7 @@ def with_meshio(path):
                 key = "marker" if "marker" in keys else keys[0] if keys else None
                 markers += data[key][i].ravel().tolist() if key else []
     mesh = meshes[0]
-    if path.suffix == ".med":  # MED's families by their groups, and its tetrahedra, which turn the other way
+    if path.suffix == ".med":  # MED's families by their groups, and its tetrahedra, which have the other orientation
         from assembly import MARKERS, REGIONS
 
         ids = {family: i for family, groups in mesh.cell_tags.items() for i, name in (MARKERS | REGIONS).items() if name in groups}
@@ -128,7 +128,7 @@ def with_vtk(path):
 
 
 def with_gmsh(path):
-    """Gmsh saves what it has read as text of version 2.2, which is then looked at here."""
+    """Gmsh saves the mesh as text of version 2.2, which is then parsed here."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "again.msh"
         run = subprocess.run(["gmsh", str(path), "-0", "-format", "msh22", "-o", str(out)], capture_output=True,
@@ -255,7 +255,7 @@ def with_getfem(path):
             else:
                 triangles.append(np.asarray(mesh.pid_in_faces(np.array([[cv], [face]])), int).ravel()[:3])
                 markers.append(int(r))
-    # An interface has two sides, which GetFEM lists both.
+    # An interface has two sides, and GetFEM lists both.
     once = {(frozenset(t.tolist()), m): t for t, m in zip(triangles, markers)}
     return measures(points, tets, regions, list(once.values()), [m for _, m in once] or None)
 
@@ -392,7 +392,7 @@ def with_ccx(path):
 
 
 def with_libmed(path):
-    """What mdump, of the MED library, lists: counts, and the groups of every family."""
+    """The output of mdump, of the MED library: counts, and the groups of every family."""
     run = subprocess.run(["mdump", str(path), "NODALE", "FULL_INTERLACE", "1"], capture_output=True, text=True, errors="replace",
                          timeout=120)
     text = run.stdout + run.stderr
@@ -439,6 +439,6 @@ def with_parser(path):
 if __name__ == "__main__":
     sys.stdout.flush()
     keep = os.dup(1)
-    os.dup2(2, 1)  # what programs print is not the answer
+    os.dup2(2, 1)  # output of the programs is not part of the answer
     answer = globals()["with_" + sys.argv[1]](Path(sys.argv[2]))
     os.write(keep, (json.dumps(answer) + "\n").encode())

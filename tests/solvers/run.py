@@ -1,7 +1,7 @@
 """Every format into every program that reads it, and problems solved by them: `make solvers` writes docs/solvers.md.
 
 Usage: run.py PROGRAM [--write FILE] [--short] [--only NAME]. Without --write it prints; exit code 1 if anything is wrong,
-77 if no program is installed. --short leaves the problems out and takes one program a format.
+77 if no program is installed. --short leaves out the problems and uses one program per format.
 """
 import argparse
 import importlib.util
@@ -19,7 +19,7 @@ sys.path.insert(0, str(HERE))
 import assembly  # noqa: E402
 
 PYTHON = "/usr/bin/python3"
-# What each program reads; the first of a row is the one of the short form.
+# The programs that read each format; --short uses the first of a row.
 READS = {
     "vtu": ["meshio", "vtk", "sfepy"],
     "vtm": ["vtk"],
@@ -41,7 +41,7 @@ READS = {
     "node": ["meshio"],
     "openfoam": ["openfoam"],
 }
-# The same of second order: counts of nodes, and the volumes and areas that the elements have by their corners.
+# The same for second order: counts of nodes, and volumes and areas of the elements by their corners.
 SECOND_ORDER = {
     "vtu": ["meshio", "vtk"],
     "vtk": ["meshio", "vtk"],
@@ -89,7 +89,7 @@ INSIDE_IS_LOST = ("su2", "openfoam", "msh2", "unv")
 
 
 def with_numbers(found):
-    """The answer with the ids as numbers again, which JSON has as text."""
+    """The answer with ids as numbers again; JSON has them as text."""
     return {key: {int(k): v for k, v in value.items()} if key == "volumes" else value for key, value in found.items()}
 
 
@@ -98,7 +98,7 @@ def near(a, b):
 
 
 def faults(found, counts, kind, reader):
-    """What of the answer is wrong, one string each."""
+    """The errors in the answer, one string each."""
     names = {name.lower(): i for i, name in assembly.MARKERS.items()}
     for key in ("points", "tetrahedra"):
         if key in found and found[key] != counts[key]:
@@ -146,9 +146,9 @@ def cell(found):
 
 
 def asked(program, reader, path, folder):
-    """What a program has found in a file. Raises ValueError with its last words."""
+    """The contents that a program found in a file. Raises ValueError with its last output."""
     command = [PYTHON, HERE / "read_with.py", reader, path]
-    if reader == "dealii":  # which takes no faces inside for a boundary
+    if reader == "dealii":  # which does not accept inner faces as boundary
         outer = path.with_stem(path.stem + "_outer")
         subprocess.run([program, "convert", path, outer, "--no-interfaces", "-q", *(["--format", "msh2"] if "msh2" in path.stem else [])],
                        check=True, capture_output=True, timeout=120)
@@ -161,7 +161,7 @@ def asked(program, reader, path, folder):
 
 
 def build_dealii(folder):
-    """deal.II is a library: the program that reads with it is compiled once."""
+    """deal.II is a library: a program that reads with it is compiled once."""
     built = folder / "read_with_dealii"
     if not built.exists():
         flags = [subprocess.run(["mpicxx", f"--showme:{what}"], capture_output=True, text=True, check=True).stdout.split()
@@ -215,7 +215,7 @@ def problems(program, folder, only):
         place.mkdir()
         try:
             found = solve(program, place, order)
-        except Exception as error:  # whatever a foreign program does is a finding
+        except Exception as error:  # any failure of a foreign program is a finding
             wrong.append(f"{name}: {error}")
             print(name, error, flush=True)
             continue

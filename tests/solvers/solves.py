@@ -1,6 +1,6 @@
 """Problems whose answers are known, solved by the programs on meshes of Holdfast.
 
-Each function takes the program and a folder and returns rows (what, found, expected, tolerance). `second_order` tells
+Each function takes the program and a folder and returns rows (what, found, expected, tolerance). `second_order` says
 whether the program has elements of second order (mesh --order 2).
 """
 import math
@@ -22,7 +22,7 @@ def run(command, folder, environment=None, timeout=600):
 
 
 def write_boxes(path, boxes, markers, spacing):
-    """Boxes side by side in x as one .mesh; `markers[i]` has the six sides' markers. The side between two is there once."""
+    """Boxes side by side in x as one .mesh; `markers[i]` has the six sides' markers. The side between two boxes occurs once."""
     triangles = []
     for i, ((low, high), sides) in enumerate(zip(boxes, markers)):
         triangles += [(corners, sides[side - 1]) for corners, side in box(low, high, spacing) if i == 0 or side != 1]
@@ -53,7 +53,7 @@ SIDES = {1: (0, 1, 2, 4, 5, 6), 2: (0, 3, 1, 7, 8, 4), 3: (1, 3, 2, 8, 9, 5), 4:
 
 
 def cantilever(program, folder, across, order):
-    """The deflection of a beam's end over that of Timoshenko's beam."""
+    """The ratio of the deflection of a beam's end to that of Timoshenko's beam."""
     surface = folder / "beam.mesh"
     write_boxes(surface, [((0.0, 0.0, 0.0), (LENGTH, 1.0, 1.0))], [(1, 2, 3, 3, 3, 3)], 1.0 / across)
     inp = folder / f"beam{across}_{order}.inp"
@@ -68,7 +68,7 @@ def cantilever(program, folder, across, order):
         corners = [elements[element][i] for i in SIDES[side][:6 if order == 2 else 3]]
         a, b, c = (nodes[v] for v in corners[:3])
         area = np.linalg.norm(np.cross(b - a, c - a)) / 2
-        # Loads that a constant traction makes: all at the middles of the edges of a triangle of second order.
+        # Loads of a constant traction: all at the midpoints of the edges of a triangle of second order.
         for v in corners[3:] if order == 2 else corners:
             loads[v] = loads.get(v, 0) + area / 3
     deck = folder / f"deck{across}_{order}.inp"
@@ -218,7 +218,7 @@ print("@", u[x[:, 0] > 1.999, 0].mean())
 
 
 def getfem(program, folder, second_order):
-    """Two materials in a row under tension: what each gives adds up."""
+    """Two materials in a row under tension: their elongations add up."""
     surface = folder / "bar.mesh"
     write_boxes(surface, [((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), ((1.0, 0.0, 0.0), (2.0, 1.0, 1.0))],
                 [(1, 7, 3, 3, 3, 3), (7, 2, 3, 3, 3, 3)], 0.5)

@@ -1,7 +1,7 @@
 """Reads with VTK, meshio and Gmsh what io_interop_test wrote, and compares it with the original.
 
 Usage: io_interop.py FOLDER. FOLDER holds expected.json and volume.* files. Exit code 0: all agree,
-1: one does not, 77: none of the readers is installed. Needs nothing beyond what it finds.
+1: one does not, 77: none of the readers is installed. Uses whichever readers it finds.
 """
 
 import json
@@ -82,7 +82,7 @@ def read_meshio(path):
 
 
 def read_gmsh(path):
-    """Gmsh must load the file without a complaint, and count what it holds."""
+    """Gmsh must load the file without a complaint, and count its contents."""
     run = subprocess.run(["gmsh", "-0", str(path)], capture_output=True, text=True, timeout=60)
     text = run.stdout + run.stderr
     if run.returncode != 0 or "Error" in text or "Warning" in text:
@@ -119,7 +119,7 @@ def main():
                 continue
             try:
                 wrong = list(differences(expected, read(path)))
-            except Exception as error:  # whatever a foreign reader throws is a finding
+            except Exception as error:  # any exception of a foreign reader is a finding
                 wrong = [repr(error)]
             print(name, path.name, "; ".join(wrong) or "agrees")
             failures += bool(wrong)
