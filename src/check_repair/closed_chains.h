@@ -10,12 +10,12 @@ namespace holdfast::checking {
 
 struct SidedEdge {
   Segment ends;
-  unsigned sides = 0;   ///< those that it may be a part of the chain of, as bits
+  unsigned sides = 0;   ///< the sides whose chains may contain it, as bits
   bool is_odd = false;  ///< in the sum of all chains
 };
 
-/// Whether there are three chains without boundary, each of edges that may be a part of it, of which the odd
-/// edges are the sum. Edges must be told once each. What is not odd may be in two of the chains.
+/// Whether there are three chains without boundary, each of edges that it may contain, whose sum is the odd
+/// edges. Each edge must be given once. An edge that is not odd may be in two of the chains.
 [[nodiscard]] bool are_closed_chains(std::span<const SidedEdge> edges);
 
 }  // namespace holdfast::checking

@@ -17,10 +17,10 @@
 // more than D, since x - f(x) is a convex combination of such differences at corners. Do the same for the
 // chain of AB with nearest points on AB: g. For an edge pq of the chain the homotopy from f to g sweeps a
 // quadrilateral in t, all of whose points are images of points of pq and lie within D of these, again by
-// convexity. At vertices these quadrilaterals cancel by (b), but for a path from f(A') to A twice, once for
-// AB and once for CA. (If A' = B' and the chain is empty, the segment AB is swept from A' alone.) Altogether
-// there is a chain in t, made of images that lie within D of what they are images of, with the boundary AB +
-// BC + CA. The only such chain modulo 2 is t itself, so it covers t.
+// convexity. At vertices these quadrilaterals cancel by (b), except for a path from f(A') to A twice, once
+// for AB and once for CA. (If A' = B' and the chain is empty, the segment AB is swept from A' alone.)
+// Altogether there is a chain in t, made of images that lie within D of what they are images of, with the
+// boundary AB + BC + CA. The only such chain modulo 2 is t itself, so it covers t.
 //
 // Points of a triangle of (d), and of its edges, lie within |vw| / 2 of uv or uw, or within h of the one
 // edge, since the distance to that is a convex function, too. Their images under f and g lie within D - |vw|

@@ -11,8 +11,8 @@ namespace holdfast {
 [[nodiscard]] Defect encloses_nothing(const Complex& complex, const SegmentTable& table,
                                       const VertexNames& names = {});
 
-/// Facets, dangling segments and isolated vertices that border on no kept region: one defect for each set of
-/// them that hangs together. `kept` has its regions and segments.
+/// Facets, dangling segments and isolated vertices that border on no kept region: one defect for each
+/// connected set of them. `kept` has its regions and segments.
 [[nodiscard]] std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, const Kept& kept,
                                                const Complex& complex, const SegmentTable& table,
                                                const VertexNames& names = {});

@@ -190,7 +190,7 @@ class Numbering {
 
   Triangulation& triangulation_;
   const Threads threads_;
-  LargeArray<std::uint32_t> front_, back_;  // first place of a vertex that is free; behind the last one
+  LargeArray<std::uint32_t> front_, back_;  // first free place of a vertex; after the last one
   LargeArray<C> cells_;
   std::vector<C> ghosts_;
 };

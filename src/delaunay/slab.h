@@ -1,14 +1,14 @@
-// Which vertices and cells are one inserter's while several work: space is cut into slabs, one an inserter.
+// The vertices and cells that each of several inserters owns: space is cut into slabs, one for each inserter.
 //
 // An inserter owns the vertices of its slab, and the cells all of whose vertices it owns (the ghost is
-// everybody's). It changes no other cell but for the neighbour codes at faces of its own; a point whose
+// everybody's). It changes no other cell except the neighbour codes at its own faces; a point whose
 // cavity holds a cell that it does not own is left for later. So nothing is locked, and what is read is
 // written by no other thread:
-//  * corners, sphere and mark of a cell with an own vertex: only its owner changes them, and nobody else can
-//    be that; the walk stays on such cells, and the cavity and the cells next to it are of this kind;
-//  * the neighbour code at a face with an own vertex: it changes only if all the face's vertices are of one
-//    owner, which can be nobody else;
-//  * the scratch of a vertex round a cavity: the vertices of a cell owned.
+//  * corners, sphere and mark of a cell with an own vertex: only its owner changes them, which no other
+//    inserter can be; the walk stays on such cells, and the cavity and the cells next to it are of this kind;
+//  * the neighbour code at a face with an own vertex: it changes only if one inserter owns all the
+//    face's vertices, which no other one can;
+//  * the scratch of a vertex round a cavity: it is a vertex of an owned cell.
 // (The idea is that of HXT: Marot, Pellerin, Remacle 2019.)
 #pragma once
 

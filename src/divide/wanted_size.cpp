@@ -9,8 +9,8 @@ namespace holdfast::division {
 namespace {
 
 constexpr std::size_t kLeaf = 8;
-/// Of the size: what is told may be larger by this much. In the middle of a ball all of its surface is about
-/// as near, and would have to be looked at to find the very least.
+/// Factor: the returned size may be larger than the least by its inverse. In the middle of a ball all of its
+/// surface is about as near, and would have to be examined to find the very least.
 constexpr double kSlack = 0.9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

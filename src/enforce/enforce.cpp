@@ -1,7 +1,8 @@
-// Lays all segments, then all facets, each group in random order unless another order is asked for. The
-// points of one constraint are eliminated before the next constraint is laid; otherwise points beget points
-// (paper §2.4). A missing segment has no facet yet, so its points are eliminated as those of a dangling
-// segment, whatever its final degree. After that, every missing facet has three single edges as sides.
+// Recovers all segments, then all facets, each group in random order unless the options give another. The
+// points of one constraint are eliminated before the next one is partitioned; otherwise points lead to more
+// points (paper §2.4). A missing segment has no facet yet, so its points are eliminated as those of a
+// dangling segment, whatever its final degree. After that, every missing facet has three single edges as
+// sides.
 #include "enforce/enforce.h"
 
 #include <functional>
@@ -19,7 +20,7 @@
 namespace holdfast {
 namespace {
 
-// A way to lay a missing constraint; returns whether the constraint now stands.
+// A way to recover a missing constraint; returns whether the constraint now stands.
 using Way = std::function<bool(Index)>;
 
 // Tries the ways in order; the last one never fails.

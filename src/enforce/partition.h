@@ -29,8 +29,8 @@ struct ConstraintPieces {
   std::vector<SubFacets> sub_facets;
 };
 
-/// The constraints that are laid are unions of mesh edges and faces, with their bits set: single ones if
-/// points are eliminated. All segments must come before the first facet.
+/// Recovered constraints are unions of mesh edges and faces, with their bits set: single ones if points are
+/// eliminated. All segments must come before the first facet.
 class Partition {
  public:
   /// All references must outlive the partition. `tell` is called from time to time, and may throw.

@@ -14,7 +14,7 @@ namespace holdfast::exact {
 /// a / b to within a relative error of 2^-bits; b must not be zero.
 [[nodiscard]] Dyadic quotient(const Dyadic& a, const Dyadic& b, int bits);
 
-/// The binary fraction with the fewest bits behind the point in the closed interval [low, high],
+/// The binary fraction with the fewest bits after the point in the closed interval [low, high],
 /// low < high.
 [[nodiscard]] Dyadic shortest_between(const Dyadic& low, const Dyadic& high);
 

@@ -12,7 +12,7 @@
 namespace holdfast::exact {
 
 struct SpacePoint {
-  BigInt x, y, z, w;  ///< w > 0; nothing else is in lowest terms but for powers of two
+  BigInt x, y, z, w;  ///< w > 0; only powers of two are cancelled
 };
 
 struct SpacePlane {

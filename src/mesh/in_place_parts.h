@@ -3,10 +3,9 @@
 // Every vertex belongs to one part. Tetrahedra with vertices of several parts are mixed: they stay, and their
 // faces and edges with all vertices in one part are treated as facets and segments. So
 //   1. tetrahedra of different parts have no vertex in common, nor are they neighbours;
-//   2. what changes a part and heeds constraints writes nothing but its tetrahedra and vertices, and of a
-//   mixed one
-//      what is across a face whose vertices are the part's;
-//   3. it reads nothing that another part writes, also where it goes round a vertex.
+//   2. code that changes a part and respects constraints writes only its tetrahedra and vertices, and
+//      in mixed tetrahedra only neighbours across faces whose vertices are the part's;
+//   3. it reads nothing that another part writes, even in a walk round a vertex.
 // Marks of searches (mark_visited) are the exception: mixed tetrahedra must not be marked, so balls of their
 // vertices (is_at_mixed) must be gathered without marks.
 //

@@ -1,4 +1,4 @@
-// How much memory the process holds, as the system tells it.
+// The memory of the process, as reported by the system.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +6,10 @@
 
 namespace holdfast {
 
-/// Resident memory of the process, in bytes; nothing where `statm`, Linux's table, cannot be read.
+/// Resident memory of the process, in bytes; nothing if `statm`, Linux's table, cannot be read.
 [[nodiscard]] std::optional<std::uint64_t> resident_memory_bytes(const char* statm = "/proc/self/statm");
 
-/// The most that it was; 0 where the system does not tell.
+/// The largest value so far; 0 if the system does not report it.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 }  // namespace holdfast

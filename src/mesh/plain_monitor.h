@@ -17,7 +17,7 @@ class PlainMonitor {
 
   /// Throws Interrupted where a limit is reached or the caller cancels. Cheap enough for inner loops.
   void poll(double fraction) { monitor_.poll(Stage::validate, fraction); }
-  /// As poll, but looks at once and tells the caller.
+  /// As poll, but checks at once and calls the caller's function.
   void tell(double fraction) {
     monitor_.begin_part({fraction, 1});
     monitor_.enter(Stage::validate);

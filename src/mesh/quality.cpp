@@ -108,7 +108,7 @@ Bounds bounds_of_quality(const Plain& plain) {
                            : std::numeric_limits<double>::infinity()};
 }
 
-// What products alone tell about Q, which is enough for most tetrahedra. No face is larger than an
+// Bounds of Q by products only, which decide for most tetrahedra. No face is larger than an
 // equilateral triangle on the longest edge l, and any two faces together are at least as large as a third. So
 // with n, twice the area of abc: 2 n l <= Q 6V / (sqrt(6)/12) and Q <= sqrt(1/2) l^3 / 6V.
 enum class Told { below, not_below, neither };

@@ -62,7 +62,7 @@ class Agenda {
   [[nodiscard]] bool has_failed_often() const { return failures_ >= tuning::kMostFailures; }
   /// The worst Q given up in this round.
   [[nodiscard]] double worst_stuck() const { return worst_stuck_; }
-  /// The elements given up, but for those that were taken up again.
+  /// The elements given up and not resumed since.
   [[nodiscard]] std::vector<WaitingElement>& stuck() { return stuck_; }
 
   /// Flat elements that stayed are tried again once no other waits: changes next to them may have made a way.

@@ -16,8 +16,8 @@ namespace holdfast {
 /// The paper's Q of the doubles nearest to four vertices (mesh/quality.h): 1 is regular, more is worse.
 [[nodiscard]] double quality_of(const TetMesh& mesh, const TetMesh::Corners& corners);
 
-/// Where Q begins to count otherwise: of flat tetrahedra, those of a Q that no facet forces, of hopeless
-/// ones, which are worth a point, and of null ones, whose vertices are of one plane but for rounding.
+/// Values of Q at which classes of tetrahedra begin: flat ones, whose Q no facet forces; hopeless ones, which
+/// are worth a point; and null ones, whose vertices are coplanar up to rounding.
 struct BadFrom {
   double flat, hopeless = std::numeric_limits<double>::infinity(),
                null = std::numeric_limits<double>::infinity();

@@ -26,7 +26,7 @@ std::span<const Tet> VertexContractor::contract(Vertex v, double longest) {
   return contraction_.make();
 }
 
-// The energy of the ball with w in place of its vertex; infinite, or at least `limit`, if the contraction
+// The energy of the ball with w instead of its vertex; infinite, or at least `limit`, if the contraction
 // does not pay or an edge would be too long.
 double VertexContractor::energy_with(Vertex w, double longest, double limit) {
   const std::span<const TetMesh::Corners> tets = contraction_.with(w);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-// Above this, a cosine tells little about the small angle.
+// Above this, a cosine determines the small angle poorly.
 constexpr double kGreatCosine = 0.98;
 
 // An angle within 1e-6 degrees of 10 does not count as below: boxes and wedges make many angles of round

@@ -18,15 +18,15 @@ struct FilledParts {
 };
 
 /// As `improve`, but a large mesh is cut into parts, unless it comes in parts. After the parts are joined,
-/// the elements near the cuts are filled and improved in the same way, in parts again while they are many, to
-/// do what the cuts forbade. The number of threads makes no difference to the result.
+/// the elements near the cuts are filled and improved in the same way, in parts again while they are many,
+/// because they could not be changed before. The number of threads makes no difference to the result.
 ImproveStats improve_in_parts(const VolumeData& volume, std::optional<FilledParts> filled, Extent extent,
                               const Threads& threads, Monitor& monitor);
 
-/// Goes on with what less effort has left, as far as `extent` goes, and makes none of the figures of the
-/// volume (figures.h) worse than they are; `figures` are these, where they are known. Progress is told as
-/// that part of the stage's work. A large mesh is cut into parts. Each keeps the figures of the whole as if
-/// the others stayed as they are; as all but the least angle are means, the parts keep them together.
+/// Continues from the result of less effort, as far as `extent` goes, and makes none of the figures of the
+/// volume (figures.h) worse; `figures` are the current ones, if known. Progress is reported as that part of
+/// the stage's work. A large mesh is cut into parts. Each keeps the figures of the whole as if the others
+/// stayed as they are; as all but the least angle are means, the parts keep them together.
 ImproveStats improve_further_in_parts(const VolumeData& volume, Extent extent, std::optional<Figures> figures,
                                       std::array<double, 2> work, const Threads& threads, Monitor& monitor);
 

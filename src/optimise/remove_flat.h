@@ -1,5 +1,5 @@
 // Removing flat and other bad tetrahedra by flips that clear each other's way (the recursion of Si 2015's
-// flipnm, with quality in place of positivity).
+// flipnm, with quality instead of positivity).
 #pragma once
 
 #include <array>

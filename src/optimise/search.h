@@ -1,5 +1,5 @@
-// The search of the optimisation in a whole mesh: what goes on from element to element (element_search.h),
-// and trials of more that may be taken back.
+// The search of the optimisation in a whole mesh: work on one element after the other (element_search.h), and
+// larger trials that may be undone.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class Search {
   void push(std::span<const Tet> tets) { elements_.push(tets); }
   void work_off(Ways::Points points) { elements_.work_off(points); }
 
-  /// Part of the search that may be taken back.
+  /// Part of the search that may be undone.
   class Trial {
    public:
     /// With what waits, or without: then the search goes on from what the trial changes.

@@ -20,9 +20,9 @@ namespace holdfast {
 
 class ImprovedVolume {
  public:
-  /// Free vertices may move and go. All vertices of kept tetrahedra are explicit. What is at vertices that
-  /// `fresh` marks, or that are higher than it tells of, counts as changed. Energies grow less steeply below
-  /// the hopeless sine.
+  /// Free vertices may move and be removed. All vertices of kept tetrahedra are explicit. Tetrahedra at
+  /// vertices that `fresh` marks, or with numbers beyond its end, count as changed. Energies grow less
+  /// steeply below the hopeless sine.
   explicit ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh = {},
                           const Threads& threads = 1, double hopeless_sine = tuning::kHopelessSine);
 
@@ -178,7 +178,7 @@ class ImprovedVolume {
  private:
   void compute_energies(const Threads& threads);
   void compute_energies(Tet first, Tet last);
-  // A little less than the bound where floating point could not tell.
+  // Slightly below the bound, within which floating point cannot decide.
   void turn_to_region(RegionId region) {
     constexpr double kSurely = 1 - 1e-9;
     if (data_.most_volumes != nullptr) [[unlikely]]

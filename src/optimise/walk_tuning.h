@@ -1,4 +1,4 @@
-// Constants of walks from the worst element. docs/tuning.md tells what is known of each.
+// Constants of walks from the worst element. docs/tuning.md says what is known about each.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Constants of this stage that were found by experiment. docs/tuning.md tells what is known of each.
+// Constants of this stage that were found by experiment. docs/tuning.md says what is known about each.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ inline constexpr std::size_t kMostClipped = 1000;      ///< tetrahedra of a shel
 inline constexpr int kMostWalk = 400;  ///< steps round a vertex; then its whole ball is looked at
 
 // The two cavities of a facet.
-inline constexpr int kCavityPasses = 8;  ///< of flips, in a cavity's own mesh
-inline constexpr int kMostGrowth = 2;    ///< times that a cavity takes in what is behind its missing faces
+inline constexpr int kCavityPasses = 8;       ///< of flips, in a cavity's own mesh
+inline constexpr int kMostGrowth = 2;         ///< times that a cavity grows beyond its missing faces
 inline constexpr double kCavityMargin = 0.5;  ///< of the box round a cavity, in extents
 inline constexpr double kDeepest = 1e6;  ///< extents below the facet, of the point that makes it Delaunay
 

@@ -6,9 +6,9 @@
 
 namespace holdfast {
 
-/// Whether it asks for more regular elements than `most`, as far as can be told before there are any: in a
-/// tetrahedron the coarsest counts of what it asks for at the corners, the centre and the middles of edges,
-/// so that fine places between coarse ones count for nothing. Never without such a function.
+/// Whether the size function asks for more regular elements than `most`, estimated before there are any: in a
+/// tetrahedron, the coarsest size at the corners, the centre and the midpoints of edges counts, so that fine
+/// places between coarse ones are ignored. Always false without such a function.
 [[nodiscard]] bool asks_for_more_than(double most, const SizeFunction& sizes, const VolumeData& volume);
 
 }  // namespace holdfast

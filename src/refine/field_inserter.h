@@ -50,8 +50,8 @@ class FieldInserter {
   PointCavity cavity_;
   std::array<Vertex, 8> round_{};
   double size_ = 0;                           // at the point
-  double asked_ = 0;                          // the same before facets are heeded
-  FacetSizes::By by_ = FacetSizes::By::user;  // who decides on that
+  double asked_ = 0;                          // the same without the effect of facets
+  FacetSizes::By by_ = FacetSizes::By::user;  // what determines it
   double wanted_ = 0;                         // the same in the frame there
   Metric metric_{};                           // at the point, if there are metrics
   Frame frame_;

@@ -357,7 +357,7 @@ void limit_at_corners(const VolumeData& volume, const SizeFunction& sizes, const
 
 // Sets the user's metric, limited by the sizes that are set.
 void set_metrics_at_vertices(const VolumeData& volume, const SizeFunction& sizes, Monitor& monitor) {
-  constexpr double kMost = 0x1p200;  // in place of no limit
+  constexpr double kMost = 0x1p200;  // instead of no limit
   std::vector<Metric>& metrics = *volume.metrics;
   metrics.resize(volume.mesh.vertex_count());
   for (Vertex v = 0; v < metrics.size(); ++v) {

@@ -15,13 +15,13 @@
 
 namespace holdfast {
 
-/// The size at each vertex of the mesh: that of the surface, and for others what the vertices round allow;
-/// and the metric, if there is one.
+/// Sets the size at each vertex of the mesh: that of the surface, and for others the one that the surrounding
+/// vertices allow; and the metric, if there is one.
 void set_sizes_at_vertices(const VolumeData& volume, const SizeFunction& sizes, const Threads& threads,
                            Monitor& monitor);
 
-/// Adds field points, wherever tetrahedra are too large. Progress is told as that of `stage`. Returns whether
-/// it stopped before all that are too large were tried, since too much was tried in vain.
+/// Adds field points wherever tetrahedra are too large. Progress is reported as that of `stage`. Returns
+/// whether it stopped before all tetrahedra that are too large were tried, because too many attempts failed.
 bool advance_front(const VolumeData& volume, const SizeFunction& sizes, Stage stage, Monitor& monitor);
 
 }  // namespace holdfast

@@ -1,10 +1,10 @@
-// Levels of vertices, by which elements are counted from one side of a wall or a gap to the other.
+// Levels of vertices, which count elements from one side of a wall or a gap to the other.
 //
-// For each of 13 directions, the floors of a region are its facets whose inward normal is nearer to the
-// direction than kCone tells, and the ceilings those of the opposite direction. Vertices of floors have level
-// 0, those of ceilings level n, and the others something between. Where no edge joins vertices whose levels
-// differ by more than 1, each path of edges from a floor to a ceiling has at least n of them, however it
-// winds: this is a matter of connections alone, whatever becomes of positions.
+// For each of 13 directions, the floors of a region are its facets whose inward normal is within kCone of the
+// direction, and the ceilings those of the opposite direction. Vertices of floors have level
+// 0, those of ceilings level n, and the others something between. If no edge joins vertices whose levels
+// differ by more than 1, each path of edges from a floor to a ceiling has at least n of them, whatever its
+// route: this depends only on connections, not on positions.
 #pragma once
 
 #include <array>

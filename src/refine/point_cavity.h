@@ -3,12 +3,12 @@
 //
 // The cavity of a point p begins with the tetrahedron that holds it and spreads to neighbours whose
 // circumscribed sphere holds p, never across a facet or the hull. In a mesh that is not Delaunay, or where
-// constraints cut it, its faces need not all see p: tetrahedra behind a face that does not are taken out
-// again until all do, decided exactly. Then the tetrahedra that join p to the faces are positive and fill it:
-// a closed surface all of whose triangles see p winds round it as often as it covers the directions, which is
-// once, since p lies in one tetrahedron. In-sphere tests only propose; they are exact all the same: flat
-// tetrahedra, of which floating point cannot tell, would come to stand like walls in the way of cavities.
-// Where a metric is given, spheres are those of its frame at p.
+// constraints cut it, its faces need not all see p: tetrahedra behind a face that does not are
+// removed until all faces do, decided exactly. Then the tetrahedra that join p to the faces are positive and
+// fill it: a closed surface all of whose triangles see p winds round it as often as it covers the directions,
+// which is once, since p lies in one tetrahedron. In-sphere tests only propose, but they are exact: flat
+// tetrahedra, for which floating point cannot decide, would become walls that obstruct cavities. If a metric
+// is given, spheres are those of its frame at p.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Constants of this stage that were found by experiment. docs/tuning.md tells what is known of each.
+// Constants of this stage that were found by experiment. docs/tuning.md says what is known about each.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ inline constexpr std::size_t kLargeCavity =
 // Cuts into parts.
 inline constexpr double kWorthCutting = 60'000;       ///< tetrahedra; four times as many for each level more
 inline constexpr int kMostLevels = 4;                 ///< of cuts: 16 parts
-inline constexpr std::size_t kCutSamples = 1u << 13;  ///< tetrahedra that tell where cuts are
+inline constexpr std::size_t kCutSamples = 1u << 13;  ///< tetrahedra that determine the cuts
 inline constexpr double kShareStep = 0.05;            ///< between the shares below a plane that are compared
 inline constexpr double kCloseToPlane = 0.02;         ///< of the longest extent: what counts as near a plane
 inline constexpr double kMostAtCuts = 0.25;  ///< share of tetrahedra with a vertex on a cut: more is not cut
@@ -52,7 +52,7 @@ inline constexpr double kMostRoom = 1 << 26;  ///< tetrahedra: 5 GB of addresses
 inline constexpr int kRings = 2;                      ///< rings of tetrahedra round a cut: cavities need room
 inline constexpr double kWorthCuttingAgain = 20'000;  ///< tetrahedra, at least
 inline constexpr double kShareWorthCuttingAgain = 1.0 / 12;  ///< of the mesh
-inline constexpr double kMostLeft = 0.5;     ///< share of what was cut before: so there is an end
+inline constexpr double kMostLeft = 0.5;     ///< share of what was cut before, so that it ends
 inline constexpr double kLeastShare = 0.25;  ///< below a plane: one in the middle would be the plane before
 
 }  // namespace holdfast::tuning

@@ -1,10 +1,10 @@
 // Interfaces of parts that nearly coincide, cut alike.
 //
-// What each side is led through is decided once (led_sides.h). From then on nothing is compared with a
-// tolerance. The common triangulation of a plane patch is a constrained Delaunay triangulation with the
-// pieces of all sides of all its parts, in two of the three coordinates, which are exact. Distances are
-// computed in floating point: they choose what is joined, never whether the result is valid, which an exact
-// test tells afterwards.
+// The vertices through which each side is routed are determined once (led_sides.h). From then on nothing is
+// compared with a tolerance. The common triangulation of a plane patch is a constrained Delaunay
+// triangulation with the pieces of all sides of all its parts, in two of the three coordinates, which are
+// exact. Distances are computed in floating point: they determine what is joined, but an exact test decides
+// afterwards whether the result is valid.
 #include "repair/fuse.h"
 
 #include <algorithm>

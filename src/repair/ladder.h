@@ -65,7 +65,7 @@ class Ladder {
   /// Tries the plans, which change the surface only near facets in trouble.
   void try_plans(SidesOf sides);
 
-  /// Treats a surface most of whose vertices in trouble are there twice. If twins are only last bits apart,
+  /// Treats a surface most of whose vertices in trouble are duplicated. If twins are only last bits apart,
   /// the plans that follow start by making them one. If they are further apart, a weld alone may do. Returns
   /// true if it made the surface valid.
   bool begin_with_twins();
@@ -107,8 +107,8 @@ class Ladder {
   /// from the best state.
   void join_from_best(const Plan& plan);
 
-  /// After sheets were made one, joins what is in trouble beside them. If much stays in trouble, the joining
-  /// is taken back.
+  /// After sheets were joined, joins other triangles in trouble. If much stays in trouble, the joining is
+  /// undone.
   void join_flat();
 
   [[nodiscard]] RoundPlane round_plane();

@@ -3,9 +3,9 @@
 //
 // So a facet needs a size for points next to it, in proportion to its longest side, but no more than some
 // times the wanted size. Off the facet the need falls with the distance, until the wanted size is reached.
-// And points keep a distance from such facets: a point beside the tetrahedron on a large facet is not joined
-// to it, so that the cavities of points do not tell how near it is. Facets that can bear what is wanted are
-// left out.
+// And points keep a distance from such facets: a point next to the tetrahedron on a large facet is not joined
+// to the facet, so the cavities of points do not show how near it is. Facets that can bear the desired size
+// are left out.
 #pragma once
 
 #include <cstdint>

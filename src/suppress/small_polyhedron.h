@@ -24,8 +24,8 @@ struct PolyhedronOptions {
 /// Fills a polyhedron with strictly positive tetrahedra on its own vertices. Its faces are given so that a
 /// point x inside sees them with orient(f0, f1, f2, x) > 0.
 ///
-/// Positive tetrahedra whose faces cancel in pairs but for the polyhedron's own, as oriented chains,
-/// cover every point as often as the boundary winds round it, that is once inside and never outside: no
+/// Positive tetrahedra whose faces, as oriented chains, cancel in pairs except for the polyhedron's own cover
+/// every point as often as the boundary winds round it, that is once inside and never outside: no
 /// intersection test is needed. Returns nothing when the search ends, or its budget does, without one.
 [[nodiscard]] std::optional<std::vector<TetMesh::Corners>> fill_polyhedron(
     const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces, const PolyhedronOptions& options = {});

@@ -1,4 +1,4 @@
-// Constants of this stage that were found by experiment. docs/tuning.md tells what is known of each.
+// Constants of this stage that were found by experiment. docs/tuning.md says what is known about each.
 #pragma once
 
 #include <cstddef>

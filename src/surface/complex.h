@@ -56,7 +56,7 @@ struct SegmentTable {
 /// peeled off.
 [[nodiscard]] std::vector<char> peeled_from_borders(const SegmentTable& table);
 
-/// How the complex hangs together; combinatorial numbers only.
+/// How the complex is connected; combinatorial numbers only.
 struct SurfaceTopology {
   std::size_t vertices = 0, facets = 0;
   std::size_t segments = 0;              ///< in the table: sides and the complex's own, merged

@@ -1,11 +1,11 @@
 // Surface layer: the search for elements of a complex that do not fit together.
 //
 // Candidate pairs come from the tree of boxes, nearly all pass the certificates, and the rest is decided
-// by its contacts. What breaks the complex is told by its root cause, once:
+// by its contacts. Each violation is reported by its root cause, once:
 //   - a vertex inside a side or segment (T-junction) or inside a facet: one finding, however many elements
 //     meet there;
 //   - two elements whose own interiors meet: one finding for the pair;
-//   - where neither says it, two sides that cross, or a side that runs through a facet's interior.
+//   - if neither applies, two sides that cross, or a side that passes through a facet's interior.
 // Every pair of elements that does not fit follows from some finding: one element has the first of the
 // finding's two simplices as a face (or is it), the other one the second. And every pair that follows so
 // does not fit: a point of two interiors is in no common face.

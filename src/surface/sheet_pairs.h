@@ -1,27 +1,27 @@
 // Surface layer: pairs of facets of different sheets that may meet.
 //
-// A sheet holds facets that lie in a plane but for rounding, as an arrangement makes them. Two sheets meet in
-// a line, and of both only what touches the other's plane can meet at all; that is few, and along the line it
-// is found by a sweep. A tree of boxes of all facets would compare many more: the boxes of what is cut by
-// many planes mix.
+// A sheet holds facets that are coplanar up to rounding, as an arrangement makes them. Two sheets meet in a
+// line, and only facets that touch the other's plane can meet at all. These are few, and a sweep along the
+// line finds their pairs. A tree of boxes of all facets would compare many more, because boxes of parts cut
+// by many planes mix.
 //
 // A means of search only. Let h(x) = n x - d, in floating point, be almost 0 on a sheet, and |x| the largest
 // coordinate of a point. Since coordinates are rounded in relation to their size, |h| <= t |y| at the corners
 // y of a facet for some small t; and if one coordinate of all three is at least |y| / 4 and has one sign,
 // then |h| <= 4 t |y| on all of the facet: a convex combination of the corners is at least as large in that
 // coordinate as that of the |y| / 4. A facet of another sheet with h > 4 t |x| at its corners has this
-// everywhere, by the triangle inequality, and is disjoint from it. So what lies near the origin is told
-// apart as finely as its doubles are. Facets without such a coordinate, round the origin, are a part of the
-// sheet by themselves, for which |h| <= t.
+// everywhere, by the triangle inequality, and is disjoint from it. So facets near the origin are separated as
+// finely as doubles are there. Facets without such a coordinate, round the origin, are a part of the sheet by
+// themselves, for which |h| <= t.
 //
-// Most pairs that are left are of facets that have a vertex v of the common line, each in a fan of its own
+// Most remaining pairs are of facets with a vertex v on the common line, each in a fan of its own
 // sheet. Let only v, of a facet a, be near to the plane of the other sheet, and h >= m > 0 at its other
 // corners, which are at most l from v. Let |h| <= t at the corners of a facet b of the other sheet, which has
 // v, too, with the opposite side at least r from it. A common point p is s of the way from v to the far side
 // of a, and f of that in b: s (m - t) <= |h(p) - h(v)| <= 2 t f and f r <= |p - v| <= s l. So if
-// m > 2 t and m / l > 4 t / r, there is none but v. That is a property of each facet, so that one comparison
-// decides of two fans. What is near to the plane of such a facet as a, moreover, is near to v, and only that
-// has to be compared with facets that have no v.
+// m > 2 t and m / l > 4 t / r, there is none but v. That is a property of each facet, so one comparison
+// decides about two fans. Moreover, the part of a facet like a that is close to the plane is close to v, and
+// only that part has to be compared with facets without v.
 #pragma once
 
 #include <array>

@@ -70,7 +70,7 @@ void CavityComplex::take_segments() {
   sort_unique(surface_.segments);
 }
 
-// Takes the points that must stay, then the free ones that are well placed as far as signs tell.
+// Takes the points that must stay, then the free ones that are well placed according to the signs.
 void CavityComplex::take_points() {
   const auto well_placed = [this](Vertex v) {
     const auto star = tangle_.star(v);
@@ -84,7 +84,7 @@ void CavityComplex::take_points() {
   }
 }
 
-// Drops points that do not fit the boundary or each other; if nothing tells which these are, drops all.
+// Drops points that do not fit the boundary or each other; if these are not known, drops all.
 bool CavityComplex::drop_points(const Filled& filled) {
   if (first_point_ == vertex_.size()) return false;
   std::vector<bool> drop(vertex_.size(), filled.outcome != Filled::Outcome::invalid);

@@ -22,11 +22,11 @@ struct Connectivity {
   std::string fault;  ///< one sentence where the connectivity is not that of a mesh; then the rest is void
 };
 
-/// Reads the connectivity; coordinates are not looked at. `fixed` are vertices that stay besides those of
+/// Reads the connectivity; coordinates are not used. `fixed` are vertices that stay besides those of
 /// constraints; they must be in range.
 ///
-/// Tetrahedra that share a face should see it from two sides. Files list them any way round, so they are
-/// turned alike by flooding; which of the two ways is `turn_outwards`'s to tell.
+/// Tetrahedra that share a face should be on its two sides. Files list them in any orientation, so flooding
+/// gives all of them the same one; `turn_outwards` decides which of the two.
 [[nodiscard]] Connectivity read_connectivity(const Volume& volume, std::span<const Index> fixed);
 
 /// Turns the components whose volume is negative (that of their boundary: it does not depend on free
@@ -34,7 +34,7 @@ struct Connectivity {
 void turn_outwards(Connectivity& connectivity, std::span<const Point> vertices);
 
 /// The volume's facets, then the outer faces, with the volume's segments. Vertices keep their numbers; the
-/// free ones, which are not part of the boundary, are laid out beyond it so that they meet nothing.
+/// free ones, which are not part of the boundary, are placed beyond it so that they meet nothing.
 [[nodiscard]] Surface boundary_surface(const Volume& volume, const Connectivity& connectivity);
 
 }  // namespace holdfast

@@ -1,8 +1,9 @@
 // The last resort: a cavity round non-positive tetrahedra is emptied and filled again by the mesher itself.
 //
 // A cavity whose boundary is a valid surface can always be filled (paper §5), whatever its inside looks like,
-// and a cavity that grows ends as everything that hangs together, whose boundary is the volume's: valid, or
-// the volume would not be here.
+// and a
+// growing cavity at last is a whole connected component, whose boundary is the volume's: valid, as checked
+// before.
 #pragma once
 
 #include <functional>

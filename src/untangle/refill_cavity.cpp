@@ -63,8 +63,8 @@ RefillCavity::Outcome RefillCavity::judge(Volume volume) {
   return keeps_segments_and_vertices() ? Outcome::filled : Outcome::outside;
 }
 
-// Each facet tells the owners of the regions on its two sides. All facets of a region must agree, and every
-// side that belongs to the cavity must be filled.
+// Each facet determines the owners of the regions on its two sides. All facets of a region must agree, and
+// every side that belongs to the cavity must be filled.
 std::optional<RefillCavity::Owners> RefillCavity::owners_in(const Volume& volume) const {
   const int most =
       volume.regions.empty() ? 0 : *std::max_element(volume.regions.begin(), volume.regions.end());

@@ -6,11 +6,11 @@
 
 namespace holdfast {
 
-/// Moves the vertices of non-positive tetrahedra, worst ball first, as long as that lessens the deficit.
+/// Moves the vertices of non-positive tetrahedra, worst ball first, as long as that reduces the deficit.
 ///
-/// Where the ball has a kernel the vertex goes there: every tetrahedron at it is positive then. Else it goes
-/// where the negative volume round it is least among: the point least behind the ball's faces; the mean of
-/// its neighbours; the paper's P*, with several weights omega. Returns the number of moves.
+/// If the ball has a kernel the vertex moves there: then every tetrahedron at it is positive. Otherwise it
+/// moves to the place with the least negative volume round it among: the point least behind the ball's faces;
+/// the mean of its neighbours; the paper's P*, with several weights omega. Returns the number of moves.
 std::size_t relocate(Tangle& tangle, Watch& watch);
 
 }  // namespace holdfast

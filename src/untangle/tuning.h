@@ -1,4 +1,4 @@
-// Constants of untangling that were found by experiment. docs/tuning.md tells what is known of each.
+// Constants of untangling that were found by experiment. docs/tuning.md says what is known about each.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ inline constexpr int kIterationsAnEpsilon = 10;
 inline constexpr double kLeastDescentOfEpsilon = 1e-4;  ///< share of the energy: an iteration that gains less
                                                         ///< is the last of its epsilon
 inline constexpr double kFirstEpsilon = 1;              ///< determinants of tetrahedra are of the order of 1
-inline constexpr double kLeastEpsilon = 1e-9;           ///< below, chi is the determinant but for rounding
+inline constexpr double kLeastEpsilon = 1e-9;           ///< below, chi is the determinant up to rounding
 inline constexpr double kMostOfChi = 0.9;  ///< part of the worst chi that a smaller epsilon leaves at most
 inline constexpr double kLambda = 0.05;    ///< weight of size: boundaries force sizes on a mesh
 

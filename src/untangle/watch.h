@@ -12,7 +12,7 @@ namespace holdfast {
 
 class Watch {
  public:
-  /// `monitor` tells no stage of its own: its callback asks here.
+  /// `monitor` does not report a stage: its callback asks here.
   explicit Watch(Monitor& monitor) : monitor_(monitor) {}
 
   void enter(UntangleStep step) {
