@@ -31,7 +31,7 @@ Vector scaled(const Vector& v) {
 /// coordinate, or size, of x.
 ///
 /// Coordinates are rounded in relation to their size; where planes cross next to the origin, a layer as thick
-/// as what is rounded far from it would hold all that is there. Therefore parts are one-sided or not: of a
+/// as the rounding far from it would contain everything there. Therefore parts are one-sided or not: of a
 /// one-sided part some coordinate k has one sign and at least a quarter of its size at all corners. Then
 /// |x| <= 4 |x_k| on all of it, since |x| is convex and |x_k| linear there. So if |h(y)| <= t |y| at the
 /// corners y, then |h(x)| <= 4 t |x_k| <= 4 t |x| on the part, and a sheet of one-sided parts has such a

@@ -122,7 +122,7 @@ class Divider {
     return field;
   }
 
-  // By tetrahedra with little of the work each: the coarse ones may be large beside the parts.
+  // By tetrahedra with little of the work each: the coarse ones may be large compared with the parts.
   std::vector<division::Work> work(const WantedSize& wanted) const {
     double sum = 0;
     for (const Tetrahedron& t : coarse_.tetrahedra) sum += expected(coarse_, t, wanted);

@@ -295,7 +295,7 @@ class CutMaker {
   // Splits the face (P, e_j) at a point w so close to P that the path from A' over w to B' stays inside the
   // faces (P, e_i). Let c_i be the point where e_i crosses the half-plane. From A' to a point w on the ray
   // from P through c_j, the path crosses the rays through all c_i in between, as close to P as w is. But e_j
-  // need not cross the half-plane in a binary fraction: so w lies beside the half-plane, by less than a
+  // need not cross the half-plane in a binary fraction: so w lies off the half-plane, by less than a
   // 2^-30-th of that distance, and each step reduces this to a quarter. So the path is inside the faces in
   // the end, and some step is the last.
   Vertex put_vertex(const HalfPlane& plane, std::size_t j) {

@@ -33,9 +33,10 @@ class Agenda {
     else
       below_.front().push_back({e.quality, e.tet});
   }
-  /// Whether an element waits. What is not flat stands beside the heap until the flat ones are done, and what
-  /// is not bad until the bad ones are, and unless many have failed: the heap would hold most of the mesh,
-  /// and mostly in vain. `corners_of(quality, tet)` is nothing where the tetrahedron has changed.
+  /// Whether an element waits. Elements that are not flat stay outside the heap until the flat ones are done,
+  /// and those that are not bad until the bad ones are; if many have failed, the latter are skipped.
+  /// Otherwise the heap would hold most of the mesh, mostly for nothing. `corners_of(quality, tet)` is
+  /// nothing if the tetrahedron has changed.
   template <typename CornersOf>
   [[nodiscard]] bool has_next(CornersOf&& corners_of) {
     while (heap_.empty()) {
@@ -53,7 +54,8 @@ class Agenda {
     return worst;
   }
 
-  /// An element stays as it is. What is no bad element matters only as the worst of all, until that stays.
+  /// Leaves an element unchanged. One that is not bad matters only as the worst of all, until the worst is
+  /// given up.
   void give_up(const WaitingElement& e) {
     worst_stuck_ = std::max(worst_stuck_, e.quality);
     if (e.quality < tuning::kBad) ++failures_;
@@ -86,7 +88,7 @@ class Agenda {
     round_ = failures_ = 0;
   }
 
-  /// Drops what is not wanted of what waits and of what was given up.
+  /// Drops waiting and given-up elements for which `is_wanted` is false.
   template <typename IsWanted>
   void keep(IsWanted&& is_wanted) {
     std::erase_if(heap_, [&](const WaitingElement& e) { return !is_wanted(e.tet); });
@@ -138,7 +140,7 @@ class Agenda {
     std::push_heap(heap_.begin(), heap_.end());
   }
 
-  // Puts what is no longer below into the heap.
+  // Puts elements that are no longer below the floor into the heap.
   template <typename CornersOf>
   void lift(CornersOf&& corners_of) {
     std::vector<WaitingElement> lifted;
@@ -154,7 +156,7 @@ class Agenda {
 
   double flat_, floor_;               // of the Q in the heap
   std::vector<WaitingElement> heap_;  // the worst first
-  // Most of a mesh, so that what is taken over stays in the lists that it is in; the first is for what comes.
+  // Most of a mesh, so lists that are taken over stay separate; the first one is for new elements.
   std::vector<std::vector<Below>> below_{1};
   std::vector<WaitingElement> stuck_;
   double worst_stuck_ = 0;

@@ -22,8 +22,8 @@ class Budget {
   void spend(std::size_t work) { spent_ += work; }
   void note_gain() { at_gain_ = spent_; }
 
-  /// What is worth a point, which comes first, may take most of the budget, and several times as much where
-  /// it would better the worst of all, or where something has helped of late: heaps go one by one.
+  /// Elements worth a point come first and may use most of the budget, and several times as much if they
+  /// would improve the worst of all, or if something helped recently: clusters are removed one by one.
   [[nodiscard]] bool is_spent(bool worth_a_point, bool betters_the_worst) const {
     if (is_fixed_) return spent_ >= most_;
     const std::size_t budget = worth_a_point ? most_ : usual_;
@@ -38,7 +38,7 @@ class Budget {
     usual_ = std::min(usual_, tuning::kMostUsualAgain);
     spent_ = at_gain_ = 0;
   }
-  /// From now on so much is left, whatever an element is worth.
+  /// From now on so much is left, for all elements alike.
   void fix(std::size_t left) {
     most_ = spent_ + left;
     is_fixed_ = true;
@@ -48,7 +48,7 @@ class Budget {
   [[nodiscard]] std::size_t spent() const { return spent_; }
 
  private:
-  std::size_t most_, usual_;  // for what is worth a point, and for the rest
+  std::size_t most_, usual_;  // for elements worth a point, and for the rest
   std::size_t spent_ = 0, at_gain_ = 0;
   bool is_fixed_ = false;
 };

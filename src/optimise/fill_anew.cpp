@@ -52,8 +52,8 @@ void leave_out(Search& search, const Polyhedron& polyhedron, LeftOut& left_out) 
   for (const Tet t : polyhedron.tets()) left_out.push_back(search.mesh().corners(t));
 }
 
-// What is likely to follow if this polyhedron pays, or if larger ones are in vain, and that does not change
-// the others: polyhedra round the worst elements elsewhere.
+// The likely next requests if this polyhedron pays, or if larger ones fail, unless that changes them:
+// polyhedra round the worst elements elsewhere.
 std::vector<ToFill> likely_after(Search& search, const Polyhedron& polyhedron, LeftOut left_out,
                                  double worth_it, std::size_t most) {
   std::vector<ToFill> likely;

@@ -35,13 +35,14 @@ class Search {
   /// Part of the search that may be undone.
   class Trial {
    public:
-    /// With what waits, or without: then the search goes on from what the trial changes.
+    /// With the waiting elements, or without: then the search continues from those that the trial changes.
     enum class Agenda { kept, set_aside };
     Trial(Search& search, Agenda agenda);
     ~Trial() { search_.log_.release(); }
     Trial(const Trial&) = delete;
     Trial& operator=(const Trial&) = delete;
-    /// What has changed since it began is improved as any other part of the mesh, with a budget of its own.
+    /// The part that has changed since it began is improved like any other part of the mesh, with a separate
+    /// budget.
     void improve_what_changed();
     void take_back();
     /// No more hopeless elements than before, and the worst of all better; other flat ones are of less

@@ -26,7 +26,7 @@ inline constexpr double kCuredByOnePoint = 2;      ///< hopeless elements that o
 // Work, in exchanges tried, some 10 microseconds each.
 inline constexpr std::size_t kLeastWork = 1200;  ///< so that small meshes are done thoroughly
 inline constexpr std::size_t kWorkPerTet = 4;    ///< so that the time stays proportional to the mesh
-/// Factor for a flat element beside field points, where other elements are left alone.
+/// Factor for a flat element with field points, where other elements are left alone.
 inline constexpr std::size_t kWorkOfFlatTimes = 5;
 inline constexpr std::size_t kUsualShare = 4;  ///< one part of this many is for elements not worth a point
 /// The most work for these: otherwise millions of thin elements on a smooth surface would use up all work in

@@ -73,9 +73,9 @@ class ImprovedVolume {
     return mesh_.orient(c[0], c[1], c[2], c[3]) > 0;
   }
 
-  /// In which the elements round some vertices are seen, nearly: each has a metric of its own.
+  /// The frame for the elements round some vertices, approximately: each element has a different metric.
   [[nodiscard]] Frame frame_of(std::span<const Vertex> vertices) const { return data_.frame_of(vertices); }
-  /// The wanted length of edges, and the length of one, in the metric if there is one.
+  /// The desired length of edges, and the length of one, in the metric if there is one.
   [[nodiscard]] double size(Vertex v) const { return data_.size_in_frame(v); }
   [[nodiscard]] double length(Vertex v, Vertex w) const { return data_.length(v, w); }
 

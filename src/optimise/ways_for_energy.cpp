@@ -21,8 +21,8 @@ struct EnergyWays::Way {
   Patience least;
 };
 
-// Of contractions, one of sixty helps on CAD parts with sizes of their own; of exchanges and of points, one
-// of eight. Where a size far below the triangles' is asked for, they take points out of the way.
+// One of sixty contractions helps on CAD parts with the surface's sizes, and one of eight exchanges and
+// points. If the given size is far below the triangles', contractions remove points that obstruct others.
 EnergyWays::Outcome EnergyWays::try_all(Tet t, Patience patience, double& work) {
   static constexpr std::array<Way, 5> kWays{
       {{&EnergyWays::swap, &ImproveStats::swapped, Patience::usual},

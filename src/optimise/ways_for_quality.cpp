@@ -51,7 +51,7 @@ bool Ways::move(Vertex p, Budget& budget, std::vector<Tet>& changed) {
   return true;
 }
 
-// What is not flat matters here only as the worst of all.
+// An element that is not flat matters here only as the worst of all.
 bool Ways::remove_flat(Attempt& attempt) {
   const WaitingElement& e = attempt.element;
   if (e.quality < std::min(bad_from_.flat, attempt.worst_stuck)) return false;

@@ -45,8 +45,8 @@ class Ways {
   bool move(Vertex p, Budget& budget, std::vector<Tet>& changed);
 
   [[nodiscard]] std::mt19937_64& random() { return random_; }
-  /// These, by vertex, do not move: others must not look at what is round them while threads change parts of
-  /// the mesh (mesh/in_place_parts.h).
+  /// These vertices do not move, and their surroundings must not be read while threads change parts of the
+  /// mesh (mesh/in_place_parts.h).
   void hold(const std::vector<std::uint8_t>& held) { held_ = &held; }
   /// The vertices from here on may be moved and removed.
   [[nodiscard]] Vertex first_free() const { return first_free_; }

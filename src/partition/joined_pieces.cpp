@@ -1,5 +1,5 @@
-// Parts of a divided surface, meshed apart, as pieces of one volume. What is kept between the pieces is what
-// lies on the surface and the interfaces, and the layer of tetrahedra there.
+// Parts of a divided surface, meshed separately, as pieces of one volume. Only data on the surface and the
+// interfaces, and the layer of tetrahedra there, are kept from piece to piece.
 #include <algorithm>
 #include <map>
 #include <memory>

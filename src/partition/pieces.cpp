@@ -37,7 +37,7 @@ class PartsOf {
   }
   [[nodiscard]] bool has_none(std::size_t entity) const { return least_[entity] == no_entity; }
   [[nodiscard]] bool shared(std::size_t entity) const { return more_.contains(entity); }
-  /// The least part; 0, which takes what is in none, where there is none.
+  /// The lowest part; 0 for entities in no part.
   [[nodiscard]] Index owner(std::size_t entity) const { return has_none(entity) ? 0 : least_[entity]; }
   [[nodiscard]] bool in_piece(std::size_t entity, Index part) const {
     return has(entity, part) || (part == 0 && has_none(entity));
@@ -89,7 +89,7 @@ class Pieces {
     }
   }
 
-  /// Piece 0 has the vertices of what is on no tetrahedron.
+  /// Piece 0 has the vertices of entities on no tetrahedron.
   template <class Entity>
   void adopt(const std::vector<Entity>& entities, const PartsOf& parts) {
     for (std::size_t i = 0; i < entities.size(); ++i)

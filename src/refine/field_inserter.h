@@ -29,8 +29,8 @@ class FieldInserter {
   std::span<const Tet> insert(const Point& x, Tet start);
   /// The faces opposite the point inserted last.
   [[nodiscard]] std::span<const RimFace> rim() const { return cavity_.rim(); }
-  /// Between vertices with thousands of neighbours each attempt looks at thousands of tetrahedra, and nearly
-  /// all come to nothing. Elsewhere some ten tetrahedra are looked at in vain for each that is made.
+  /// Between vertices with thousands of neighbours each attempt examines thousands of tetrahedra, and nearly
+  /// all attempts fail. Elsewhere about ten tetrahedra are examined in vain for each that is made.
   [[nodiscard]] bool has_wasted_enough() const {
     return wasted_ > tuning::kPatience * mesh_.tet_count() + tuning::kLeastPatience;
   }

@@ -22,7 +22,7 @@ class Walls {
   /// Of the region that `tets` are all of.
   Walls(const TetMesh& mesh, std::span<const Tet> tets, Monitor& monitor);
 
-  // What is both, as at the sharp edge of a wedge, is neither.
+  // A vertex that is on both, as at the sharp edge of a wedge, counts as neither.
   [[nodiscard]] bool is_floor(Vertex v, std::size_t k) const {
     return has(v, k, &Sides::floors) && !has(v, k, &Sides::ceilings);
   }

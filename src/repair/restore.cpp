@@ -184,7 +184,7 @@ class Restoring {
     return sides;
   }
 
-  /// Leads a facet through a vertex beside it.
+  /// Routes a facet through a vertex next to it.
   [[nodiscard]] std::optional<Change> through_facet(Index v, Index f) const {
     const Triangle& t = state_.facets[f];
     const Nearness near = beside_any(before_[v], {at(t[0]), at(t[1]), at(t[2])});
@@ -215,7 +215,7 @@ class Restoring {
     return beside_side(p, ends[is_first ? 0 : 1], ends[is_first ? 1 : 0]);
   }
 
-  /// Leads a side through a vertex beside it, in all facets that have the side.
+  /// Routes a side through a vertex next to it, in all facets that have the side.
   [[nodiscard]] std::optional<Change> through_side(Index v, const Side& side,
                                                    std::span<const Index> near_facets) const {
     const Nearness near = beside_any(before_[v], std::array{at(side[0]), at(side[1])});

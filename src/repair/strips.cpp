@@ -172,7 +172,7 @@ class Strips {
     return link;
   }
 
-  /// Adds a facet on a line, with a third corner beside one of its ends.
+  /// Adds a facet on a line, with a third corner next to one of its ends.
   bool add_strip(Index g, const Segment& link, const Near& near) {
     const double far = std::max(near.vertices.at(link[0]), near.vertices.at(link[1]));
     const bool is_first = near.vertices.at(link[0]) <= near.vertices.at(link[1]);

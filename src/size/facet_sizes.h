@@ -24,15 +24,15 @@ class FacetSizes {
     double wanted;          ///< the least size at its corners, of their own and of the user's limits
     bool is_asked = false;  ///< whether that is the user's
   };
-  /// Whether what is wanted is known at corners, or may be less at any place: then facets need no more than
-  /// some times what is wanted at the place that is asked about.
+  /// Whether the desired size is known at corners, or may be smaller anywhere: then facets need no more than
+  /// some times the desired size at the point in question.
   enum class Wanted { at_corners, anywhere };
-  /// Who decides on the size at a place. Where the surface does, being finer there than the user asks for,
-  /// facets that the user alone wants smaller elements on do not make it larger: else asking for a size would
-  /// make elements larger than not asking.
+  /// What determines the size at a place. If it is the surface, because it is finer there than the user's
+  /// size, facets that are too large only for the user's size do not make the size larger: otherwise giving a
+  /// size would make elements larger.
   enum class By { surface, user };
   FacetSizes() = default;
-  /// Facets that can bear what is wanted are left out, where that is known.
+  /// Facets that can bear the desired size are left out, where it is known.
   explicit FacetSizes(std::span<const Facet> facets, Wanted wanted = Wanted::at_corners,
                       const Threads& threads = 1);
 
@@ -69,7 +69,7 @@ class FacetSizes {
   // and some others, until it returns false; it may raise `size`.
   template <typename Act>
   void for_each_near(const Point& x, double rate, const double& size, By by, Act&& act) const;
-  // What is bearable at x; calls note(facet) for each that raises it.
+  // The bearable size at x; calls note(facet) for each facet that raises it.
   template <typename Note>
   [[nodiscard]] double raised(const Point& x, double size, By by, Note&& note) const;
 

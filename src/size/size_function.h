@@ -9,9 +9,9 @@
 // a region, a field. A largest volume limits sizes, too, so that few tetrahedra are larger when all else is
 // done.
 //
-// With a metric of the user, sizes depend on the direction. What is handed from point to point is the largest
-// of them, so that the metric is kept to but where it asks for more than all this allows in any direction:
-// handed on itself, it would be spoiled where it turns, as along a curved layer.
+// With a metric of the user, sizes depend on the direction. Only the largest of them is passed
+// from point to point. So the metric is used unchanged except where it exceeds, in some direction, what all
+// this allows. Passing on the metric itself would spoil it where its axes turn, as along a curved layer.
 #pragma once
 
 #include <algorithm>

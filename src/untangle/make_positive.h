@@ -12,8 +12,7 @@ struct UntangleStats {
   RefillStats refill;
 };
 
-/// Relocation, swaps and smoothing take turns as long as that lessens the deficit; then what is left is
-/// refilled.
+/// Relocation, swaps and smoothing take turns as long as that reduces the deficit; the rest is then refilled.
 ///
 /// Why positive is enough. Let M be the mesh as an abstract complex, f its map to space, linear on each
 /// tetrahedron. For a point x off the images of faces, the sum of the signs of the tetrahedra whose images
