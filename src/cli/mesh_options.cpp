@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "holdfast/io.h"
+#include "holdfast/memory.h"
 #include "holdfast/names.h"
 #include "idle_options.h"
 #include "limits.h"
@@ -102,9 +103,11 @@ std::uint64_t memory_limit_of(const std::optional<double>& gigabytes) {
   constexpr double bytes_per_gigabyte = 1e9, most = 1e9;
   if (gigabytes && !(*gigabytes > 0 && *gigabytes < most))
     throw UsageError(fmt::format(
-        "--memory-limit {}: a positive number of gigabytes is expected; without the option there is no limit",
+        "--memory-limit {}: a positive number of gigabytes is expected; without the option it is most of the "
+        "machine's memory",
         *gigabytes));
-  return static_cast<std::uint64_t>(std::ceil(gigabytes.value_or(0) * bytes_per_gigabyte));
+  if (!gigabytes) return usual_memory_limit();
+  return static_cast<std::uint64_t>(std::ceil(*gigabytes * bytes_per_gigabyte));
 }
 
 std::optional<Extent> read_size_field(const MeshArguments& arguments, Options& options) {

@@ -60,8 +60,8 @@ std::optional<Extent> read_size_field(const MeshArguments& arguments, Options& o
 /// The stage of that name. Throws UsageError.
 [[nodiscard]] Stage stage_named(const std::string& text);
 
-/// The limit in bytes from gigabytes, or 0 for none; the limit in seconds, or 0. Both throw UsageError unless
-/// the number is positive.
+/// The limit in bytes from gigabytes, without them nearly all memory of the machine (0 where no limit can be
+/// kept); the limit in seconds, or 0 for none. Both throw UsageError unless the number is positive.
 [[nodiscard]] std::uint64_t memory_limit_of(const std::optional<double>& gigabytes);
 [[nodiscard]] double time_limit_of(const std::optional<double>& seconds);
 

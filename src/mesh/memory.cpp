@@ -6,6 +6,7 @@
 #include <emscripten/heap.h>
 #endif
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -16,6 +17,7 @@ namespace holdfast {
 // The memory of a module never shrinks, so its present size is also its peak.
 std::optional<std::uint64_t> resident_memory_bytes(const char*) { return emscripten_get_heap_size(); }
 std::uint64_t peak_memory_bytes() { return emscripten_get_heap_size(); }
+std::optional<std::uint64_t> machine_memory_bytes(const char*) { return std::nullopt; }
 
 #else
 
@@ -40,6 +42,15 @@ std::uint64_t peak_memory_bytes() {
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+std::optional<std::uint64_t> machine_memory_bytes(const char* most) {
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || bytes <= 0) return std::nullopt;
+  const std::uint64_t all = static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes);
+  std::uint64_t group = 0;
+  if (std::ifstream(most) >> group) return std::min(all, group);  // without a limit the file says "max"
+  return all;
 }
 
 #endif

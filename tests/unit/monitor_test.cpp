@@ -7,9 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <fstream>
 #include <numbers>
+#include <string>
 #include <thread>
 
+#include "holdfast/memory.h"
 #include "mesh/memory.h"
 #include "small_surfaces.h"
 
@@ -71,6 +74,27 @@ TEST(Memory, IsUnknownIfTheSystemDoesNotReportIt) {
   EXPECT_GT(resident_memory_bytes().value_or(0), 1'000'000u);
   EXPECT_FALSE(resident_memory_bytes("/nowhere/statm"));
   EXPECT_FALSE(resident_memory_bytes("/dev/null"));
+}
+
+// A file with `text`, as the system has for a control group.
+std::string group_file(const char* text) {
+  const std::string path = testing::TempDir() + "memory.max";
+  std::ofstream(path) << text << '\n';
+  return path;
+}
+
+TEST(Memory, IsThatOfTheMachineOrOfItsControlGroup) {
+  const std::uint64_t all = machine_memory_bytes("/nowhere/memory.max").value();
+  EXPECT_GT(all, resident_memory_bytes().value());
+  EXPECT_EQ(machine_memory_bytes(group_file("max").c_str()), all);
+  EXPECT_EQ(machine_memory_bytes(group_file("100000000").c_str()), 100'000'000u);
+  EXPECT_EQ(machine_memory_bytes(group_file("9000000000000000000").c_str()), all);
+}
+
+TEST(Memory, TheUsualLimitIsMostOfIt) {
+  const std::uint64_t all = machine_memory_bytes().value();
+  EXPECT_LT(usual_memory_limit(), all);
+  EXPECT_GE(usual_memory_limit(), all / 10 * 9);
 }
 
 TEST(Limits, BeginAtTheGivenTime) {
