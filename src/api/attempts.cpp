@@ -12,7 +12,9 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kMostAttempts = 5;
+// Another order seldom rounds many points at once, and takes long on a large complex.
+constexpr std::size_t kMostAttempts = 5, kMostAttemptsForMany = 2;
+constexpr std::size_t kFewPoints = 3, kLargeComplex = 20'000;
 
 }  // namespace
 
@@ -32,9 +34,15 @@ Attempts::Attempts(Input& input, const Options& options, Limits& limits, const T
 
 void Attempts::run() {
   run_next();
-  while (result_.report.attempts < kMostAttempts && result_.outcome == Outcome::not_representable &&
+  while (result_.outcome == Outcome::not_representable && result_.report.attempts < most_attempts() &&
          run_again()) {
   }
+}
+
+std::size_t Attempts::most_attempts() const {
+  const bool has_many =
+      result_.exact_vertices.size() > kFewPoints && input_.complex().facets.size() > kLargeComplex;
+  return has_many ? kMostAttemptsForMany : kMostAttempts;
 }
 
 void Attempts::run_next() {

@@ -35,6 +35,7 @@ class Attempts {
   [[nodiscard]] double worst_without_field() const { return worst_without_field_; }
 
  private:
+  [[nodiscard]] std::size_t most_attempts() const;
   void run_next();
   bool run_again();
   bool run_after(Result& before, const std::function<void()>& attempt);

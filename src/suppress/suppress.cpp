@@ -86,7 +86,9 @@ bool refill(const Site& site, Points& points, SuppressStats& stats) {
     if (mesh.in_mesh(p)) merge_with_neighbours(site, p);
   stats.merged += drop_the_gone(mesh, points);
   const std::size_t gone = before - points.size(), unrounded = count_unrounded(mesh, points);
-  return gone * tuning::kWorthwhile > before || (unrounded > 0 && (gone > 0 || unrounded < unrounded_before));
+  const std::size_t rounded = unrounded_before - std::min(unrounded_before, unrounded);
+  const std::size_t worthwhile = unrounded > 0 ? tuning::kWorthwhileWithoutDoubles : tuning::kWorthwhile;
+  return (gone + rounded) * worthwhile > before;
 }
 
 // Removes remaining points from other meshes round them, except those that are proven necessary.
