@@ -14,7 +14,7 @@ inline constexpr int kShrinkIdle = 3;  ///< recentring may open a way only later
 inline constexpr int kInsistRounds = 20, kInsistIdle = 8;
 inline constexpr int kRoundingRounds = 6;
 // One point of so many gone is worth another go; where some have no doubles, one gone or rounded of more.
-inline constexpr std::size_t kWorthwhile = 10, kWorthwhileWithoutDoubles = 30;
+inline constexpr std::size_t kWorthwhile = 10, kWorthwhileWithoutDoubles = 100;
 
 // Flips that take edges at a point away, in sign tests roughly. A point that no double holds is worth more.
 inline constexpr std::size_t kQuickBudget = 2000, kPatientBudget = 20000;  ///< for an edge
