@@ -29,7 +29,7 @@ std::string message_of(const Cure& cure) {
       return fmt::format("{} within {:.3g} of another or of a side: {}",
                          counted(cure.count, "vertex lies", "vertices lie"), cure.distance, option_of(cure));
     case CureKind::cut:
-      return fmt::format("{}: `holdfast repair` cuts what meets and leaves out what is no triangle",
+      return fmt::format("{}: `holdfast repair` cuts triangles where they meet and drops degenerate ones",
                          counted(cure.count, "defect"));
     case CureKind::fill_holes:
       return fmt::format("{} of at most {} sides: {}{}", counted(cure.count, "hole"), cure.sides,

@@ -35,8 +35,7 @@ void print_advice_on_tolerance(const MeshArguments& arguments) {
 void print_refusal(const MeshArguments& arguments, const Surface& surface, const Result& result) {
   if (result.defects.empty()) {
     say("holdfast: {}; nothing was written\n{}{}\n", result.message, overlap_advice,
-        arguments.paste && !arguments.paste->empty() ? ""
-                                                     : "; --paste=T brings together what is nearer than T");
+        arguments.paste && !arguments.paste->empty() ? "" : "; --paste=T joins parts that are nearer than T");
     return;
   }
   const DefectSummary summary = summarise(surface.view(), result.defects);

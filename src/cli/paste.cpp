@@ -82,7 +82,7 @@ int conclude(const PasteArguments& arguments, const PasteResult& result,
       say("holdfast: {}; nothing was written\n", result.message);
       if (!result.overlaps.empty())
         say("{}{}\n", advice,
-            arguments.tolerance ? "" : "; --tolerance T brings together what is nearer than T");
+            arguments.tolerance ? "" : "; --tolerance T joins parts that are nearer than T");
       return exit_invalid_surface;
     case Outcome::time_limit:
     case Outcome::memory_limit:

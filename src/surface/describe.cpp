@@ -132,7 +132,7 @@ std::string message_of(const Complex& complex, const Elements& elements, const S
       const std::string vertex = "vertex " + text(finding.first[0]);
       const char* const what = finding.kind == DefectKind::vertex_in_segment ? " (T-junction)" : "";
       return vertex + " " + text(complex.vertices[finding.first[0]]) + " lies inside " + second + what +
-             ": split what it lies in at this vertex, or move the vertex";
+             ": split it at this vertex, or move the vertex";
     }
     case DefectKind::segments_cross:
       return first + " and " + second + " cross" + where + ": split both at a new vertex there";

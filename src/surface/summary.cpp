@@ -104,7 +104,7 @@ Words words_of(Cause cause) {
     case Cause::overlap:
       return {"overlap of triangles in one plane or sides in one line",
               "overlaps of triangles in one plane or sides in one line",
-              "where a wall is there twice, remove one; else split both along each other's sides"};
+              "if a wall is doubled, remove one copy; else split both along each other's sides"};
     case Cause::parts_cross:
       return {"crossing of separate parts", "crossings of separate parts",
               "unite the parts (boolean union), leave out what is hidden inside, or move them apart"};

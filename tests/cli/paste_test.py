@@ -193,7 +193,7 @@ class PasteTest(CliTest):
         for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste", expect=4),
                       self.run_program("paste", *names, "-o", "x.mesh", expect=4)):
             self.assertRegex(ended.stderr, r"a\.off and b\.off overlap by 1e-06 at")
-            self.assertIn("T brings together what is nearer than T", ended.stderr)
+            self.assertIn("T joins parts that are nearer than T", ended.stderr)
         ended = self.run_program("paste", *names, "-o", "x.mesh", "--tolerance", "1e-9", expect=4)
         self.assertNotIn("T brings", ended.stderr)
         self.mesh(names, "--paste=1e-5")

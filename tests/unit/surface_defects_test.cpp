@@ -113,8 +113,7 @@ TEST(Defects, TJunctionIsReportedOnce) {
   EXPECT_EQ(d.facets, (Indices{0, 1, 2, 3, 4})) << "those at the side, then those at the vertex";
   EXPECT_EQ(d.where, (std::vector<Point>{{1, 0, 0}}));
   EXPECT_EQ(d.message,
-            "vertex 4 (1, 0, 0) lies inside side 0-1 of triangles 0 and 1 (T-junction): split what it lies "
-            "in at this "
+            "vertex 4 (1, 0, 0) lies inside side 0-1 of triangles 0 and 1 (T-junction): split it at this "
             "vertex, or move the vertex");
   EXPECT_EQ(offending_pairs(s.view(), SIZE_MAX, [](double) {}).size(), 6u);
 }
@@ -124,9 +123,8 @@ TEST(Defects, VertexInFacet) {
   EXPECT_EQ(d.kind, DefectKind::vertex_in_facet);
   EXPECT_EQ(d.vertices, Indices{3});
   EXPECT_EQ(d.facets, Indices{0});
-  EXPECT_EQ(
-      d.message,
-      "vertex 3 (1, 1, 0) lies inside triangle 0: split what it lies in at this vertex, or move the vertex");
+  EXPECT_EQ(d.message,
+            "vertex 3 (1, 1, 0) lies inside triangle 0: split it at this vertex, or move the vertex");
 }
 
 TEST(Defects, SegmentsCross) {
