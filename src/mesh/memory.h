@@ -12,8 +12,8 @@ namespace holdfast {
 /// The largest value so far; 0 if the system does not report it.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
-/// The memory that the process may use: that of the machine, or less if its control group (cgroup v2) has a
-/// limit in the file `most`. Nothing if the system does not say.
+/// The memory that the process may use: that of the machine, or less if its container has a limit (cgroup v2)
+/// in the file `most`. Nothing if the system does not say.
 [[nodiscard]] std::optional<std::uint64_t> machine_memory_bytes(
     const char* most = "/sys/fs/cgroup/memory.max");
 

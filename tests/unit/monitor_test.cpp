@@ -76,14 +76,14 @@ TEST(Memory, IsUnknownIfTheSystemDoesNotReportIt) {
   EXPECT_FALSE(resident_memory_bytes("/dev/null"));
 }
 
-// A file with `text`, as the system has for a control group.
+// A file with `text`, as the system has for a container.
 std::string group_file(const char* text) {
   const std::string path = testing::TempDir() + "memory.max";
   std::ofstream(path) << text << '\n';
   return path;
 }
 
-TEST(Memory, IsThatOfTheMachineOrOfItsControlGroup) {
+TEST(Memory, IsThatOfTheMachineOrOfItsContainer) {
   const std::uint64_t all = machine_memory_bytes("/nowhere/memory.max").value();
   EXPECT_GT(all, resident_memory_bytes().value());
   EXPECT_EQ(machine_memory_bytes(group_file("max").c_str()), all);
