@@ -9,13 +9,11 @@
 #include "numbers/sorted.h"
 #include "repair/bend.h"
 #include "repair/near.h"
+#include "repair/passings.h"
 #include "surface/aabb_tree.h"
-#include "surface/complex.h"
 
 namespace holdfast::repairing {
 namespace {
-
-using Side = std::array<Index, 2>;
 
 /// Most gaps by which facets bend in one pass: this ends chains that are led to and fro.
 constexpr double kMostGaps = 64;
@@ -109,65 +107,17 @@ class Settling {
         state_.vertices[u] = at(found->second);
   }
 
-  // --- Sides that pass each other ---------------------------------------------------------------------
+  // --- 2. Sides that pass each other ------------------------------------------------------------------
 
-  [[nodiscard]] std::vector<Side> passing_sides() const {
-    std::vector<Side> sides;
-    for (const Index f : trouble_.facets) {
-      const Triangle& t = state_.facets[f];
-      const bool is_line = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-      if (is_line && how_.passings == Passings::free) continue;
-      for (std::size_t i = 0; i < 3; ++i)
-        if (t[i] != t[(i + 1) % 3]) sides.push_back(ascending(Side{t[i], t[(i + 1) % 3]}));
-    }
-    if (how_.passings == Passings::free) return once_in(std::move(sides));
-    for (const Index s : trouble_.segments)
-      if (state_.segments[s][0] != state_.segments[s][1])
-        sides.push_back(ascending(Side(state_.segments[s])));
-    sort_unique(sides);
-    return sides;
-  }
-
-  static std::vector<Side> once_in(std::vector<Side> sides) {
-    std::sort(sides.begin(), sides.end());
-    std::vector<Side> once;
-    for (auto side = sides.begin(); side != sides.end();) {
-      const auto next = std::upper_bound(side, sides.end(), *side);
-      if (next - side == 1) once.push_back(*side);
-      side = next;
-    }
-    return once;
-  }
-
-  /// Adds vertices where two sides pass each other within the gap, unless there already is a vertex.
+  /// Adds vertices there, unless there already is one within the gap.
   void add_passings() {
-    const std::vector<Side> sides = passing_sides();
-    std::vector<Box> boxes;
-    for (const Side& side : sides) boxes.push_back(box_round(state_, side, gap_));
-    std::vector<std::pair<double, Point>> found;
-    AabbTree(boxes).for_each_overlap(
-        [&](Index i, Index j) {
-          const auto [a, b] = sides[i];
-          const auto [c, d] = sides[j];
-          ++work_.done;
-          if (work_.is_spent()) return false;
-          if (a == c || a == d || b == c || b == d) return true;
-          const Passing passing = pass(at(a), at(b), at(c), at(d));
-          if (!(passing.distance <= gap_)) return true;
-          Point middle{};
-          for (std::size_t k = 0; k < 3; ++k) middle[k] = passing.on_first[k] / 2 + passing.on_second[k] / 2;
-          found.emplace_back(passing.distance, middle);
-          return true;
-        },
-        [](Index, Index) { return false; }, step_);
-    std::sort(found.begin(), found.end());
     Cells cells(gap_);
     for (const Index v : vertices_) cells.add(at(v));
-    for (const auto& [distance, middle] : found) {
-      if (cells.has_near(middle)) continue;
-      cells.add(middle);
+    for (const SidesPass& place : passings_of(state_, trouble_, how_.passings, gap_, work_, step_)) {
+      if (cells.has_near(place.middle)) continue;
+      cells.add(place.middle);
       vertices_.push_back(static_cast<Index>(state_.vertices.size()));
-      state_.vertices.push_back(middle);
+      state_.vertices.push_back(place.middle);
     }
   }
 

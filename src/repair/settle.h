@@ -32,8 +32,12 @@ struct Work {
   [[nodiscard]] std::size_t left() const { return is_spent() ? 0 : most - done; }
 };
 
-/// Which sides get a vertex where they pass each other. Free sides have one facet.
-enum class Passings { none, free, all };
+/// Which sides get a vertex where they pass each other.
+enum class Passings {
+  none,
+  edges,  ///< free sides, which have one facet, and sides whose facets do not lie in each other
+  all
+};
 
 struct Settle {
   double gap = 0;

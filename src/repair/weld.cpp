@@ -28,8 +28,10 @@ double weld(State& state, double tolerance, const Step& step) {
   constexpr double kRoomForRounding = 0x1p-20;  // as a share of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
   Work work;
-  // If two patches cut the curve between them differently, their sides cross between the vertices.
-  return settle(state, all, {gap, gap, true, Passings::free}, work, step);
+  // If two patches cut the curve between them differently, their sides cross between the vertices. So do the
+  // edges of bodies that touch each other there. Sheets that coincide are left to `flatten`: their triangles
+  // cross each other at all sides, and vertices there would not make them the same.
+  return settle(state, all, {gap, gap, true, Passings::edges}, work, step);
 }
 
 std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double widest,

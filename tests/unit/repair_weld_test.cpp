@@ -4,6 +4,7 @@
 #include <array>
 
 #include "holdfast/repair.h"
+#include "small_surfaces.h"
 
 namespace holdfast {
 namespace {
@@ -48,12 +49,46 @@ TEST(RepairWithWeld, FreeSidesThatPassWithinTheWeldShareAVertex) {
   EXPECT_EQ(free.surface.facets.size(), 4u);
   EXPECT_EQ(free.surface.vertices.size(), 7u);
   EXPECT_LE(free.max_displacement, options.weld);
+}
 
-  surface.vertices.push_back({2, 3, 3});
-  surface.facets.push_back({1, 0, 6});
-  const RepairResult shared = repair(surface.view(), options);
-  expect_valid(shared);
-  EXPECT_EQ(shared.surface.facets.size(), 3u);
+/// A roof whose ridge lies along the x axis; `over` turns it upside down, with its ridge along the y axis.
+void add_roof(Surface& surface, bool over, double height) {
+  const auto first = static_cast<Index>(surface.vertices.size());
+  for (const Point& p : {Point{-1, 0, 0}, {1, 0, 0}, {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}})
+    surface.vertices.push_back(over ? Point{p[1], p[0], height - p[2]} : p);
+  for (const Triangle& t :
+       {Triangle{0, 2, 3}, {0, 3, 1}, {0, 1, 4}, {0, 4, 5}, {2, 5, 4}, {2, 4, 3}, {0, 5, 2}, {1, 3, 4}})
+    surface.facets.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+TEST(RepairWithWeld, EdgesOfBodiesThatTouchShareAVertex) {
+  for (const double height : {1e-9, -1e-9}) {
+    Surface surface;
+    add_roof(surface, false, 0);
+    add_roof(surface, true, height);
+    RepairOptions options;
+    options.weld = 1e-6;
+    const RepairResult touching = repair(surface.view(), options);
+    expect_valid(touching);
+    EXPECT_EQ(touching.surface.vertices.size(), 13u);
+    EXPECT_EQ(touching.surface.facets.size(), 20u);
+    EXPECT_LE(touching.max_displacement, options.weld);
+    options.weld = 1e-10;
+    EXPECT_NE(repair(surface.view(), options).surface.vertices.size(), 13u);
+  }
+}
+
+// Where bodies touch with faces, all sides cross each other within the tolerance. Vertices there would not
+// give the faces the same triangles.
+TEST(RepairWithWeld, SidesOfFacesThatCoincideStayAsTheyAre) {
+  Surface surface;
+  small::add_box(surface, {-2, -1, -1}, {2, 1, 0});
+  small::add_box(surface, {-1, -2, 1e-9}, {1, 2, 1});
+  RepairOptions options;
+  options.weld = 1e-6;
+  const RepairResult welded = repair(surface.view(), options);
+  expect_valid(welded);
+  EXPECT_EQ(welded.surface.facets, surface.facets);
 }
 
 }  // namespace
