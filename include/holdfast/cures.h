@@ -13,24 +13,26 @@ enum class CureKind {
   cut,         ///< no option: facets that cross, touch or overlap are cut
   fill_holes,  ///< RepairOptions::fill_holes
   unite,       ///< RepairOptions::unite
+  join,        ///< RepairOptions::weld and RepairOptions::join, with the same tolerance
 };
-/// "weld", "cut", "fill holes", "unite"; stable.
+/// "weld", "cut", "fill holes", "unite", "join"; stable.
 [[nodiscard]] HOLDFAST_API const char* name(CureKind kind);
 
 struct Cure {
   CureKind kind;
-  std::size_t count =
-      0;                 ///< of vertices to join, of defects, of holes; of parts that pass through each other
-  double distance = 0;   ///< weld: the widest gap to close
-  double tolerance = 0;  ///< weld: the smallest tolerance tried that closes all gaps, to one significant
-                         ///< digit
+  std::size_t count = 0;  ///< of vertices to join, of defects, of holes; of parts that pass through each
+                          ///< other; of triangles and edges that lie near another body
+  double distance = 0;   ///< weld: the widest gap to close; join: the largest distance of what nearly touches
+  double tolerance = 0;  ///< weld, join: the smallest tolerance tried that closes all of these, to one
+                         ///< significant digit
   std::size_t sides = 0;  ///< fill_holes: of the longest border
   std::size_t left = 0;   ///< fill_holes: borders that stay open because a filling would meet the surface
 };
 
 struct Cures {
-  std::vector<Cure> cures;  ///< in the order in which a repair applies them
-  /// Whether all cures but `unite` were applied together and gave a valid surface without the gaps.
+  std::vector<Cure> cures;  ///< in the order in which a repair applies them; what is left to the user last
+  /// Whether all cures but `unite` and `join` were applied together and gave a valid surface without the
+  /// gaps.
   bool tried = false;
   /// Whether the surface is already valid. The cures then only close it.
   bool was_valid = false;
@@ -42,7 +44,9 @@ struct Cures {
 ///
 /// Each cure is applied before it is proposed, unless that would take too many new points (src/api/cures.cpp
 /// has the limit). The proposal is then a guess, and `tried` is false. Whether to unite parts depends on what
-/// the user means, so `unite` is proposed wherever parts pass through each other. Holes are counted after all
+/// the user means, so `unite` is proposed wherever parts pass through each other. So does `join`: it is
+/// proposed if bodies of a surface that is not valid come within a millionth of its extent of each other, and
+/// nothing does any more after such a repair. Holes are counted after all
 /// other cures. Only the limits of `options` are used. Throws Interrupted for them.
 [[nodiscard]] HOLDFAST_API Cures propose_cures(const Complex& complex, std::span<const Defect> defects,
                                                const DefectSummary& summary,

@@ -10,6 +10,7 @@
 #include "mesh/plain_monitor.h"
 #include "mesh/started.h"
 #include "repair/borders.h"
+#include "repair/bounds.h"
 #include "repair/state.h"
 #include "repair/weld.h"
 #include "text/parse.h"
@@ -74,6 +75,7 @@ class Proposal {
     if (!cures_.tried) return std::move(cures_);
     fill(broken > 0 || is_welded ? result.surface.view() : complex_);
     unite();
+    if (broken > 0 && cures_.tried) join(result);
     return std::move(cures_);
   }
 
@@ -92,17 +94,23 @@ class Proposal {
     return options;
   }
 
-  /// Repairs the complex; sets `tried` to false if that takes too many points or finds no doubles.
-  RepairResult attempt(double tolerance) {
+  RepairResult repaired(const Complex& complex, double weld, double join) {
     RepairOptions options = next_trial();
-    options.weld = tolerance;
+    options.weld = weld;
+    options.join = join;
     options.fill_holes = {};
     options.unite = options.exact = false;
     constexpr std::size_t kFewPoints = 20'000;
     options.most_points = kFewPoints + complex_.facets.size() / 2;
-    RepairResult result = repair(complex_, options);
+    RepairResult result = repair(complex, options);
     if (result.outcome == Outcome::time_limit || result.outcome == Outcome::cancelled)
       throw Interrupted(result.outcome);
+    return result;
+  }
+
+  /// Repairs the complex; sets `tried` to false if that takes too many points or finds no doubles.
+  RepairResult attempt(double tolerance) {
+    RepairResult result = repaired(complex_, tolerance, 0);
     cures_.tried = result.outcome == Outcome::done;
     return result;
   }
@@ -133,13 +141,13 @@ class Proposal {
   /// Like `gaps_left`, after welding alone.
   GapsLeft gaps_welded(double tolerance, double widest) {
     repairing::State state = repairing::state_of(complex_);
-    const std::size_t trial = trials_++;
-    repairing::weld(state, tolerance, [&](double fraction) { monitor_.poll(share(trial, fraction)); });
+    repairing::weld(state, tolerance, step());
     return gaps_left(state.complex(), widest);
   }
 
   RepairResult propose_weld(double widest, double tolerance, RepairResult result) {
     cures_.cures.push_back({CureKind::weld, summary_.gaps.size(), widest, tolerance, 0, 0});
+    welded_ = tolerance;
     return result;
   }
 
@@ -181,12 +189,57 @@ class Proposal {
       cures_.cures.push_back({CureKind::unite, count, 0, 0, 0, 0});
   }
 
+  /// What nearly touches.
+  struct Near {
+    std::size_t count = 0;
+    double distance = 0;
+  };
+
+  /// The triangles of sheets within `most` of each other. What a repair without options moves is no reason
+  /// to join them.
+  Near sheets_within(const Complex& complex, double most, double moved_anyway) {
+    constexpr double kMuchMore = 16;
+    const RepairResult joined = repaired(complex, welded_, most);
+    Near near;
+    if (joined.outcome != Outcome::done || !(joined.max_displacement > kMuchMore * moved_anyway)) return near;
+    near.distance = joined.max_displacement;
+    for (std::size_t f = 0; f < joined.parents.size(); ++f)
+      if (joined.parents[f].size() > 1) ++near.count;
+    return near;
+  }
+
+  /// Proposes a tolerance within which bodies touch. Without it, what they nearly share becomes slivers.
+  void join(const RepairResult& plain) {
+    constexpr double kNear = 0x1p-20;  // of the extent: more than the rounding of files with six digits
+    constexpr int kAttempts = 3;
+    const double most = kNear * repairing::extent(complex_.vertices);
+    const double moved = std::max(plain.max_displacement, repairing::last_bit(complex_.vertices));
+    const repairing::EdgesPass edges =
+        repairing::edges_that_pass(repairing::state_of(complex_), most, step());
+    const Near sheets = sheets_within(complex_, most, moved);
+    const Near near{edges.count + sheets.count, std::max(edges.distance, sheets.distance)};
+    if (!(near.distance > 0)) return;
+    double tolerance = one_digit_above(near.distance * (1 + 0x1p-19));
+    for (int i = 0; i < kAttempts; ++i, tolerance = one_digit_above(tolerance)) {
+      const RepairResult result = repaired(complex_, std::max(tolerance, welded_), tolerance);
+      if (result.outcome != Outcome::done) continue;
+      if (sheets_within(result.surface.view(), most, moved).distance > 0) continue;
+      cures_.cures.push_back({CureKind::join, near.count, near.distance, tolerance, 0, 0});
+      return;
+    }
+  }
+
+  Step step() {
+    return [this, trial = trials_++](double fraction) { monitor_.poll(share(trial, fraction)); };
+  }
+
   const Complex& complex_;
   std::span<const Defect> defects_;
   const DefectSummary& summary_;
   const RepairOptions& options_;
   PlainMonitor monitor_;
   std::size_t trials_ = 0;
+  double welded_ = 0;
   Cures cures_;
 };
 

@@ -124,7 +124,8 @@ constexpr std::array kOpenReasons{Named{OpenReason::too_many_sides, "too many si
                                   Named{OpenReason::no_filling, "no filling"}};
 
 constexpr std::array kCureKinds{Named{CureKind::weld, "weld"}, Named{CureKind::cut, "cut"},
-                                Named{CureKind::fill_holes, "fill holes"}, Named{CureKind::unite, "unite"}};
+                                Named{CureKind::fill_holes, "fill holes"}, Named{CureKind::unite, "unite"},
+                                Named{CureKind::join, "join"}};
 
 constexpr std::array kRepairRuleKinds{Named{RepairRuleKind::output_valid, "output valid"},
                                       Named{RepairRuleKind::vertices_kept, "vertices kept"},

@@ -19,6 +19,8 @@ std::string option_of(const Cure& cure) {
       return fmt::format("--fill-holes {}", cure.sides);
     case CureKind::unite:
       return "--union";
+    case CureKind::join:
+      return fmt::format("--weld {0} --join {0}", cure.tolerance);
   }
   return "";
 }
@@ -37,15 +39,22 @@ std::string message_of(const Cure& cure) {
     case CureKind::unite:
       return fmt::format("parts overlap ({}): {}, if they are one body", counted(cure.count, "crossing"),
                          option_of(cure));
+    case CureKind::join:
+      return fmt::format("bodies pass each other within {:.3g} at {}: {}, if they touch", cure.distance,
+                         counted(cure.count, "triangle or edge", "triangles or edges"), option_of(cure));
   }
   return "";
 }
 
-/// The options without --union, which might change something intended.
+bool is_for_the_user_to_decide(const Cure& cure) {
+  return cure.kind == CureKind::unite || cure.kind == CureKind::join;
+}
+
+/// Without options that might change something intended.
 std::string options_of(const Cures& cures) {
   std::string options;
   for (const Cure& cure : cures.cures)
-    if (const std::string option = option_of(cure); !option.empty() && cure.kind != CureKind::unite)
+    if (const std::string option = option_of(cure); !option.empty() && !is_for_the_user_to_decide(cure))
       options += (options.empty() ? "" : " ") + option;
   return options;
 }
@@ -90,7 +99,7 @@ Json to_json(const Cures& cures) {
                {"option", option_of(cure)},
                {"count", cure.count},
                {"message", message_of(cure)}};
-    if (cure.kind == CureKind::weld) {
+    if (cure.kind == CureKind::weld || cure.kind == CureKind::join) {
       entry["distance"] = cure.distance;
       entry["tolerance"] = cure.tolerance;
     }

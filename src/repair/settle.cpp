@@ -25,6 +25,7 @@ class Settling {
 
   double run() {
     list_vertices();
+    if (how_.passings == Passings::edges) bodies_ = bodies_of(state_);
     const double merged = merge_vertices();
     if (how_.passings != Passings::none) add_passings();
     const double room = how_.most > 0 ? how_.most - merged : kMostGaps * gap_;
@@ -113,7 +114,7 @@ class Settling {
   void add_passings() {
     Cells cells(gap_);
     for (const Index v : vertices_) cells.add(at(v));
-    for (const SidesPass& place : passings_of(state_, trouble_, how_.passings, gap_, work_, step_)) {
+    for (const SidesPass& place : passings_of(state_, trouble_, how_.passings, bodies_, gap_, work_, step_)) {
       if (cells.has_near(place.middle)) continue;
       cells.add(place.middle);
       vertices_.push_back(static_cast<Index>(state_.vertices.size()));
@@ -155,6 +156,7 @@ class Settling {
   Work& work_;
   const Step& step_;
   std::vector<Index> vertices_;
+  std::vector<Index> bodies_;
 };
 
 }  // namespace

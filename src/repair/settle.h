@@ -35,7 +35,8 @@ struct Work {
 /// Which sides get a vertex where they pass each other.
 enum class Passings {
   none,
-  edges,  ///< free sides, which have one facet, and sides whose facets do not lie in each other
+  edges,  ///< free sides, which have one facet; and sides of two bodies, unless their facets lie in each
+          ///< other
   all
 };
 

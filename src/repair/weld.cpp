@@ -7,6 +7,7 @@
 
 #include "numbers/sorted.h"
 #include "repair/near.h"
+#include "repair/passings.h"
 #include "surface/aabb_tree.h"
 
 namespace holdfast::repairing {
@@ -17,21 +18,25 @@ bool is_usable(const State& state, std::span<const Index> corners) {
                      [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); });
 }
 
-}  // namespace
-
-double weld(State& state, double tolerance, const Step& step) {
+Trouble all_usable(const State& state) {
   Trouble all;
   for (Index f = 0; f < state.facets.size(); ++f)
     if (is_usable(state, state.facets[f])) all.facets.push_back(f);
   for (Index s = 0; s < state.segments.size(); ++s)
     if (is_usable(state, state.segments[s])) all.segments.push_back(s);
+  return all;
+}
+
+}  // namespace
+
+double weld(State& state, double tolerance, const Step& step) {
   constexpr double kRoomForRounding = 0x1p-20;  // as a share of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
   Work work;
   // If two patches cut the curve between them differently, their sides cross between the vertices. So do the
   // edges of bodies that touch each other there. Sheets that coincide are left to `flatten`: their triangles
   // cross each other at all sides, and vertices there would not make them the same.
-  return settle(state, all, {gap, gap, true, Passings::edges}, work, step);
+  return settle(state, all_usable(state), {gap, gap, true, Passings::edges}, work, step);
 }
 
 std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double widest,
@@ -63,6 +68,18 @@ std::optional<double> distance_of_twins(const State& state, const Trouble& troub
   std::nth_element(least.begin(), middle, least.end());
   if (*middle > widest) return std::nullopt;
   return *middle;
+}
+
+EdgesPass edges_that_pass(const State& state, double widest, const Step& step) {
+  Work work;
+  EdgesPass edges;
+  for (const SidesPass& place :
+       passings_of(state, all_usable(state), Passings::edges, bodies_of(state), widest, work, step)) {
+    if (!(place.distance > 0)) continue;
+    ++edges.count;
+    edges.distance = place.distance;  // in ascending order
+  }
+  return edges;
 }
 
 }  // namespace holdfast::repairing

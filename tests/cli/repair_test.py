@@ -454,6 +454,33 @@ class Proposals(Repaired):
         self.assertEqual(cures["options"], "--weld 7e-06")
         self.assertEqual((after["valid"], after["summary"]["gaps"]), (True, []))
 
+    def test_faces_that_nearly_touch(self):
+        # Two beams lie across each other, 1e-7 too deep; a third lies too far above to be meant.
+        beams = [[(4 * x, y, z) for x, y, z in cube()], [(x + 1, 4 * y - 1, z + 1 - 1e-7) for x, y, z in cube()],
+                 [(x + 1, 4 * y - 1, z + 2.1) for x, y, z in cube()]]
+        cures, after = self.cure(sum(beams, []), CUBE_FACETS + shifted(CUBE_FACETS, 8) + shifted(CUBE_FACETS, 16))
+        join = cures["proposals"][-1]
+        self.assertEqual((join["kind"], join["option"]), ("join", "--weld 2e-07 --join 2e-07"))
+        self.assertEqual(cures["options"], "", "whether they touch is for the user to say")
+        self.assertEqual(after["summary"]["encloses"], 4, "the overlap is a body, too")
+        self.repair("in.off", options=join["option"].split())
+        self.check("in.off")
+        touching = self.program_says_of("out.off")
+        self.assertEqual((touching["valid"], touching["summary"]["encloses"]), (True, 3))
+
+    def test_edges_that_nearly_touch(self):
+        def roof(along, height):
+            points = [(-1, 0, 0), (1, 0, 0), (-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1)]
+            return points if along == "x" else [(y, x, height - z) for x, y, z in points]
+        facets = [(0, 2, 3), (0, 3, 1), (0, 1, 4), (0, 4, 5), (2, 5, 4), (2, 4, 3), (0, 5, 2), (1, 3, 4)]
+        cures, _ = self.cure(roof("x", 0) + roof("y", -1e-9), facets + shifted(facets, 6))
+        join = cures["proposals"][-1]
+        self.assertEqual((join["kind"], join["count"], join["distance"]), ("join", 1, 1e-9))
+        self.repair("in.off", options=join["option"].split())
+        self.check("in.off")
+        touching = self.program_says_of("out.off")
+        self.assertEqual((touching["valid"], touching["summary"]["encloses"], touching["cures"]["proposals"]), (True, 2, []))
+
     def test_a_hole(self):
         cures, after = self.cure(cube(), CUBE_FACETS[2:])
         self.assertEqual(cures["options"], "--fill-holes 4")

@@ -249,7 +249,7 @@ TEST(Names, OfEveryEnumerationAndBack) {
   expect_names<Rung>(5);
   expect_names<DropReason>(4);
   expect_names<OpenReason>(3);
-  expect_names<CureKind>(4);
+  expect_names<CureKind>(5);
   expect_names<RepairRuleKind>(12);
   expect_names<FitKind>(5);
   expect_names<Overlap>(4);
