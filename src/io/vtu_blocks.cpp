@@ -9,7 +9,7 @@ namespace holdfast::io {
 namespace {
 
 std::string deflated(std::string_view block) {
-  std::string room(compressBound(kVtuBlock), '\0');
+  std::string room(compressBound(block.size()), '\0');
   uLongf size = room.size();
   // Level 1 takes half the time of the default for 5 % more bytes. It cannot fail, because the room suffices.
   compress2(reinterpret_cast<Bytef*>(room.data()), &size, reinterpret_cast<const Bytef*>(block.data()),
