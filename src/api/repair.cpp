@@ -109,8 +109,7 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   if (options.fill_holes) holes = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);
   if (options.unite) {
     const std::size_t before = rounded.state.facets.size();
-    if (const Outcome outcome = unite(complex, rounded.state, holes, options, step); outcome != Outcome::done)
-      return end(result, outcome, limit_message(outcome, options));
+    unite(complex, rounded.state, holes, step, threads);
     rounded.has_united = rounded.state.facets.size() < before;
   }
   result.filled = std::move(holes.filled);

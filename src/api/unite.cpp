@@ -1,6 +1,6 @@
 // The union of the parts of a surface.
 //
-// The mesher finds the regions of the arrangement, and which ones lie on either side of each facet. For one
+// The arrangement divides space into regions, and each facet has one on either side. For one
 // component of the input, all other facets are air: regions separated only by them are one. The regions that
 // its own facets separate have a winding number if the facets are consistently oriented; otherwise each
 // region is inside or outside.
@@ -14,6 +14,7 @@
 #include "mesh/disjoint_sets.h"
 #include "numbers/sorted.h"
 #include "surface/places.h"
+#include "surface/space.h"
 
 namespace holdfast {
 namespace {
@@ -31,44 +32,6 @@ std::vector<Index> components_of(const Complex& input) {
   for (std::size_t f = 0; f < component.size(); ++f)
     if (const Index v = input.facets[f][0]; v < input.vertices.size()) component[f] = sets.root(first[v]);
   return component;
-}
-
-/// The regions in front of and behind each facet; 0 is the outside.
-struct Division {
-  std::vector<std::array<Index, 2>> sides;
-  std::size_t regions = 1;
-};
-
-/// The box is larger than everything else, so the leftmost vertex is one of its corners.
-int outside_of(const Volume& volume) {
-  const auto least = [&](const Tetrahedron& tetrahedron) {
-    double x = volume.vertices[tetrahedron[0]][0];
-    for (const Index v : tetrahedron) x = std::min(x, volume.vertices[v][0]);
-    return x;
-  };
-  std::size_t best = 0;
-  double least_of_best = least(volume.tetrahedra[0]);
-  for (std::size_t t = 1; t < volume.tetrahedra.size(); ++t)
-    if (const double x = least(volume.tetrahedra[t]); x < least_of_best) {
-      best = t;
-      least_of_best = x;
-    }
-  return volume.regions[best];
-}
-
-Division division_of(const Result& result) {
-  Division division;
-  std::map<int, Index> number;
-  const auto outside = std::optional<int>(outside_of(result.volume));
-  const auto number_of = [&](std::optional<int> region) -> Index {
-    if (!region || region == outside) return 0;
-    const auto [at, is_new] = number.try_emplace(*region, static_cast<Index>(division.regions));
-    if (is_new) ++division.regions;
-    return at->second;
-  };
-  for (const FacetRegions& sides : result.facet_regions)
-    division.sides.push_back({number_of(sides[0]), number_of(sides[1])});
-  return division;
 }
 
 /// The regions on both sides of a facet of the arrangement that is part of a component's facet.
@@ -135,23 +98,10 @@ void keep_only(repairing::State& state, repairing::Holes& holes, const std::vect
 
 }  // namespace
 
-Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& holes,
-              const RepairOptions& options, const Step& step) {
-  if (state.facets.empty()) return Outcome::done;
-  Options meshing;
-  static_cast<Limits&>(meshing) = options;
-  meshing.keep = Keep::box;
-  meshing.stop_after = Stage::classify;
-  meshing.threads = options.threads;
-  meshing.progress = [&](const Progress& progress) {
-    step(progress.overall);
-    return true;
-  };
-  const Complex facets{state.vertices, state.facets, {}, {}, {}};
-  const Result result = mesh(facets, meshing);
-  if (result.outcome != Outcome::done && result.outcome != Outcome::not_representable) return result.outcome;
-  if (result.facet_regions.size() != state.facets.size()) return Outcome::invalid_input;
-  const Division division = division_of(result);
+void unite(const Complex& input, repairing::State& state, repairing::Holes& holes, const Step& step,
+           const Threads& threads) {
+  if (state.facets.empty()) return;
+  const DividedSpace division = divide_space({state.vertices, state.facets, {}, {}, {}}, step, threads);
 
   const std::vector<Index> component = components_of(input);
   std::map<Index, std::vector<Wall>> walls;       // by component
@@ -162,7 +112,7 @@ Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& h
       for (const Index v : state.facets[f]) component_at[v] = component[p];
   std::vector<Index> own;
   for (std::size_t f = 0; f < state.facets.size(); ++f) {
-    const auto [front, back] = division.sides[f];
+    const auto [front, back] = division.of_facet[f];
     own.clear();
     for (const Index p : state.facet_parents.of(f)) {
       own.push_back(component[p]);
@@ -196,9 +146,8 @@ Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& h
   }
   std::vector<std::uint8_t> keep(state.facets.size());
   for (std::size_t f = 0; f < keep.size(); ++f)
-    keep[f] = material[division.sides[f][0]] != material[division.sides[f][1]];
+    keep[f] = material[division.of_facet[f][0]] != material[division.of_facet[f][1]];
   keep_only(state, holes, keep);
-  return Outcome::done;
 }
 
 }  // namespace holdfast

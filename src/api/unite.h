@@ -9,9 +9,8 @@ namespace holdfast {
 
 /// Drops facets of a valid surface with material on both sides or on none. Material is what `Keep::automatic`
 /// keeps of some connected component of the input by itself; overlaps count once. `input` is the surface to
-/// which the state's parents refer. Returns an outcome other than done if the regions could not be found
-/// within the limits. `holes` becomes what is left of the fillings.
-[[nodiscard]] Outcome unite(const Complex& input, repairing::State& state, repairing::Holes& holes,
-                            const RepairOptions& options, const Step& step);
+/// which the state's parents refer. `holes` becomes what is left of the fillings.
+void unite(const Complex& input, repairing::State& state, repairing::Holes& holes, const Step& step,
+           const Threads& threads);
 
 }  // namespace holdfast
