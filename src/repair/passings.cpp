@@ -36,14 +36,14 @@ class PassingSides {
  public:
   PassingSides(const State& state, const Trouble& trouble, Passings kind, std::span<const Index> bodies,
                double gap)
-      : state_(state), bodies_(bodies), gap_(gap), only_edges_(kind == Passings::edges) {
+      : state_(state), bodies_(bodies), gap_(gap), kind_(kind) {
     for (const Index f : trouble.facets) {
       const Triangle& t = state.facets[f];
       const bool is_line = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-      if (!is_line || !only_edges_) add_sides(t, f, at_sides_);
+      if (!is_line || kind_ == Passings::all) add_sides(t, f, at_sides_);
     }
     for (const Index s : trouble.segments)
-      if (const Segment& ends = state.segments[s]; ends[0] != ends[1] && !only_edges_)
+      if (const Segment& ends = state.segments[s]; ends[0] != ends[1] && kind_ == Passings::all)
         at_sides_.push_back({ascending(Side(ends)), no_index});
     sort_unique(at_sides_);
     list_sides();
@@ -73,10 +73,9 @@ class PassingSides {
 
   /// Of one body, only the free sides matter.
   void list_sides() {
+    const auto is_of_first = [&](const AtSide& x) { return bodies_[x.facet] == bodies_[at_sides_[0].facet]; };
     const bool are_all =
-        !only_edges_ || std::any_of(at_sides_.begin(), at_sides_.end(), [&](const AtSide& x) {
-          return bodies_[x.facet] != bodies_[at_sides_[0].facet];
-        });
+        kind_ != Passings::bodies || !std::all_of(at_sides_.begin(), at_sides_.end(), is_of_first);
     for (std::size_t i = 0, next = 0; i < at_sides_.size(); i = next) {
       next = i + 1;
       while (next < at_sides_.size() && at_sides_[next].side == at_sides_[i].side) ++next;
@@ -90,11 +89,11 @@ class PassingSides {
     const auto [a, b] = one[0].side;
     const auto [c, d] = other[0].side;
     if (a == c || a == d || b == c || b == d) return std::nullopt;
-    const bool are_free = one.size() == 1 && other.size() == 1;
-    if (only_edges_ && !are_free && !are_of_two_bodies(one, other)) return std::nullopt;
+    const bool is_clear = kind_ == Passings::all || (one.size() == 1 && other.size() == 1);
+    if (kind_ == Passings::bodies && !is_clear && !are_of_two_bodies(one, other)) return std::nullopt;
     const Passing passing = pass(at(a), at(b), at(c), at(d));
     if (!(passing.distance <= gap_)) return std::nullopt;
-    if (only_edges_ && !are_free && lie_in_each_other(one, other)) return std::nullopt;
+    if (!is_clear && lie_in_each_other(one, other)) return std::nullopt;
     Point middle{};
     for (std::size_t k = 0; k < 3; ++k) middle[k] = passing.on_first[k] / 2 + passing.on_second[k] / 2;
     return SidesPass{passing.distance, middle};
@@ -127,7 +126,7 @@ class PassingSides {
   const State& state_;
   const std::span<const Index> bodies_;
   const double gap_;
-  const bool only_edges_;
+  const Passings kind_;
   std::vector<AtSide> at_sides_;
   std::vector<Facets> sides_;
 };

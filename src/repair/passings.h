@@ -19,7 +19,7 @@ struct SidesPass {
 [[nodiscard]] std::vector<Index> bodies_of(const State& state);
 
 /// Where sides of the elements in trouble pass each other at most `gap` away, the nearest first. `bodies` are
-/// those of the facets before vertices were merged, for `Passings::edges`. Pairs count as work; the search
+/// those of the facets before vertices were merged, for `Passings::bodies`. Pairs count as work; the search
 /// ends when it is spent.
 [[nodiscard]] std::vector<SidesPass> passings_of(const State& state, const Trouble& trouble, Passings kind,
                                                  std::span<const Index> bodies, double gap, Work& work,

@@ -25,7 +25,7 @@ class Settling {
 
   double run() {
     list_vertices();
-    if (how_.passings == Passings::edges) bodies_ = bodies_of(state_);
+    if (how_.passings == Passings::bodies) bodies_ = bodies_of(state_);
     const double merged = merge_vertices();
     if (how_.passings != Passings::none) add_passings();
     const double room = how_.most > 0 ? how_.most - merged : kMostGaps * gap_;

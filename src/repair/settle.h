@@ -35,8 +35,9 @@ struct Work {
 /// Which sides get a vertex where they pass each other.
 enum class Passings {
   none,
-  edges,  ///< free sides, which have one facet; and sides of two bodies, unless their facets lie in each
-          ///< other
+  bodies,  ///< free sides, which have one facet; and sides of two bodies, if no facet of one lies in the
+           ///< other
+  edges,   ///< free sides; and other sides, if no facet of one lies in a facet of the other
   all
 };
 

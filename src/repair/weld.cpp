@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "numbers/sorted.h"
+#include "repair/bounds.h"
 #include "repair/near.h"
 #include "repair/passings.h"
 #include "surface/aabb_tree.h"
@@ -35,8 +36,12 @@ double weld(State& state, double tolerance, const Step& step) {
   Work work;
   // If two patches cut the curve between them differently, their sides cross between the vertices. So do the
   // edges of bodies that touch each other there. Sheets that coincide are left to `flatten`: their triangles
-  // cross each other at all sides, and vertices there would not make them the same.
-  return settle(state, all_usable(state), {gap, gap, true, Passings::edges}, work, step);
+  // cross each other at all sides, and vertices there would not make them the same. Within a body, what is
+  // thinner than the tolerance stays, unless it is so thin that hardly any mesh could be in it.
+  constexpr double kThinnest = 0x1p6;  // last bits
+  const bool is_thin = tolerance <= kThinnest * last_bit(state.vertices);
+  const Passings passings = is_thin ? Passings::edges : Passings::bodies;
+  return settle(state, all_usable(state), {gap, gap, true, passings}, work, step);
 }
 
 std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double widest,
@@ -74,7 +79,7 @@ EdgesPass edges_that_pass(const State& state, double widest, const Step& step) {
   Work work;
   EdgesPass edges;
   for (const SidesPass& place :
-       passings_of(state, all_usable(state), Passings::edges, bodies_of(state), widest, work, step)) {
+       passings_of(state, all_usable(state), Passings::bodies, bodies_of(state), widest, work, step)) {
     if (!(place.distance > 0)) continue;
     ++edges.count;
     edges.distance = place.distance;  // in ascending order

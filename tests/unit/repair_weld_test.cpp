@@ -78,6 +78,30 @@ TEST(RepairWithWeld, EdgesOfBodiesThatTouchShareAVertex) {
   }
 }
 
+/// Triangles that connect two such roofs, far from their ridges.
+void add_handle(Surface& surface) {
+  const auto handle = static_cast<Index>(surface.vertices.size());
+  surface.vertices.push_back({-3, 0, 0});
+  for (const Triangle& t : {Triangle{2, 5, handle}, {8, 9, handle}, {2, handle, 8}})
+    surface.facets.push_back(t);
+}
+
+// What is thin within a body stays, so that no wall becomes a single triangle.
+TEST(RepairWithWeld, EdgesOfOneBodyShareAVertexWithinSomeLastBits) {
+  for (const double height : {0x1p-51, 1e-9}) {
+    Surface surface;
+    add_roof(surface, false, 0);
+    add_roof(surface, true, height);
+    add_handle(surface);
+    ASSERT_TRUE(diagnose(surface.view()).empty());
+    RepairOptions options;
+    options.weld = 32 * height;
+    const RepairResult welded = repair(surface.view(), options);
+    expect_valid(welded);
+    EXPECT_EQ(welded.surface.vertices.size(), height < 1e-12 ? 14u : 13u);
+  }
+}
+
 // Where bodies touch with faces, all sides cross each other within the tolerance. Vertices there would not
 // give the faces the same triangles.
 TEST(RepairWithWeld, SidesOfFacesThatCoincideStayAsTheyAre) {
