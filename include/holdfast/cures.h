@@ -43,11 +43,14 @@ struct Cures {
 /// The cures of a surface. `summary` is what `summarise` returns for its defects.
 ///
 /// Each cure is applied before it is proposed, unless that would take too many new points (src/api/cures.cpp
-/// has the limit). The proposal is then a guess, and `tried` is false. Whether to unite parts depends on what
-/// the user means, so `unite` is proposed wherever parts pass through each other. So does `join`: it is
-/// proposed if bodies of a surface that is not valid come within a millionth of its extent of each other, and
-/// nothing does any more after such a repair. Holes are counted after all
-/// other cures. Only the limits of `options` are used. Throws Interrupted for them.
+/// has the limit). The proposal is then a guess, and `tried` is false. Holes are counted after all other
+/// cures.
+///
+/// Two cures depend on what the user means. `unite` is proposed wherever parts pass through each other.
+/// `join` is proposed, also for a valid surface, if bodies (sets of triangles connected by sides) come within
+/// a millionth of the extent of each other, and none does any more after such a repair.
+///
+/// Only the limits of `options` are used. Throws Interrupted for them.
 [[nodiscard]] HOLDFAST_API Cures propose_cures(const Complex& complex, std::span<const Defect> defects,
                                                const DefectSummary& summary,
                                                const RepairOptions& options = {});

@@ -11,6 +11,7 @@
 #include "mesh/started.h"
 #include "repair/borders.h"
 #include "repair/bounds.h"
+#include "repair/near_bodies.h"
 #include "repair/state.h"
 #include "repair/weld.h"
 #include "text/parse.h"
@@ -75,7 +76,7 @@ class Proposal {
     if (!cures_.tried) return std::move(cures_);
     fill(broken > 0 || is_welded ? result.surface.view() : complex_);
     unite();
-    if (broken > 0 && cures_.tried) join(result);
+    if (cures_.tried && (broken > 0 || summary_.parts > 1)) join(result);
     return std::move(cures_);
   }
 
@@ -189,23 +190,13 @@ class Proposal {
       cures_.cures.push_back({CureKind::unite, count, 0, 0, 0, 0});
   }
 
-  /// What nearly touches.
-  struct Near {
-    std::size_t count = 0;
-    double distance = 0;
-  };
-
-  /// The triangles of sheets within `most` of each other. What a repair without options moves is no reason
-  /// to join them.
-  Near sheets_within(const Complex& complex, double most, double moved_anyway) {
+  /// How far sheets within `most` of each other move to be joined, if that is much more than what a repair
+  /// moves anyway.
+  double distance_of_sheets(double most, double moved_anyway) {
     constexpr double kMuchMore = 16;
-    const RepairResult joined = repaired(complex, welded_, most);
-    Near near;
-    if (joined.outcome != Outcome::done || !(joined.max_displacement > kMuchMore * moved_anyway)) return near;
-    near.distance = joined.max_displacement;
-    for (std::size_t f = 0; f < joined.parents.size(); ++f)
-      if (joined.parents[f].size() > 1) ++near.count;
-    return near;
+    const RepairResult joined = repaired(complex_, welded_, most);
+    const bool is_more = joined.max_displacement > kMuchMore * moved_anyway;
+    return joined.outcome == Outcome::done && is_more ? joined.max_displacement : 0;
   }
 
   /// Proposes a tolerance within which bodies touch. Without it, what they nearly share becomes slivers.
@@ -213,18 +204,20 @@ class Proposal {
     constexpr double kNear = 0x1p-20;  // of the extent: more than the rounding of files with six digits
     constexpr int kAttempts = 3;
     const double most = kNear * repairing::extent(complex_.vertices);
-    const double moved = std::max(plain.max_displacement, repairing::last_bit(complex_.vertices));
-    const repairing::EdgesPass edges =
-        repairing::edges_that_pass(repairing::state_of(complex_), most, step());
-    const Near sheets = sheets_within(complex_, most, moved);
-    const Near near{edges.count + sheets.count, std::max(edges.distance, sheets.distance)};
-    if (!(near.distance > 0)) return;
-    double tolerance = one_digit_above(near.distance * (1 + 0x1p-19));
+    const repairing::NearBodies near = repairing::near_bodies(repairing::state_of(complex_), most, step());
+    double distance = near.distance;
+    if (near.facets > 0) {
+      const double moved = std::max(plain.max_displacement, repairing::last_bit(complex_.vertices));
+      distance = std::max(distance, distance_of_sheets(most, moved));
+    }
+    if (!(distance > 0)) return;
+    double tolerance = one_digit_above(distance * (1 + 0x1p-19));
     for (int i = 0; i < kAttempts; ++i, tolerance = one_digit_above(tolerance)) {
       const RepairResult result = repaired(complex_, std::max(tolerance, welded_), tolerance);
       if (result.outcome != Outcome::done) continue;
-      if (sheets_within(result.surface.view(), most, moved).distance > 0) continue;
-      cures_.cures.push_back({CureKind::join, near.count, near.distance, tolerance, 0, 0});
+      const Complex joined = result.surface.view();
+      if (repairing::near_bodies(repairing::state_of(joined), most, step()).any()) continue;
+      cures_.cures.push_back({CureKind::join, near.facets + near.edges, distance, tolerance, 0, 0});
       return;
     }
   }

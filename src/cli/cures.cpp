@@ -86,10 +86,11 @@ std::string cures_text(const Cures& cures) {
   if (cures.cures.empty()) return left_open_text(cures);
   std::string text;
   for (const Cure& cure : cures.cures) text += fmt::format("cure: {}\n", message_of(cure));
+  text += left_open_text(cures);
+  if (std::all_of(cures.cures.begin(), cures.cures.end(), is_for_the_user_to_decide)) return text;
   const std::string options = options_of(cures);
-  return text + left_open_text(cures) +
-         fmt::format("cure: `holdfast repair IN -o OUT{}{}` {}\n", options.empty() ? "" : " ", options,
-                     effect_of(cures));
+  return text + fmt::format("cure: `holdfast repair IN -o OUT{}{}` {}\n", options.empty() ? "" : " ", options,
+                            effect_of(cures));
 }
 
 Json to_json(const Cures& cures) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "numbers/sorted.h"
@@ -160,6 +161,19 @@ class Settling {
 };
 
 }  // namespace
+
+Trouble everything(const State& state) {
+  const auto is_usable = [&](std::span<const Index> corners) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); });
+  };
+  Trouble all;
+  for (Index f = 0; f < state.facets.size(); ++f)
+    if (is_usable(state.facets[f])) all.facets.push_back(f);
+  for (Index s = 0; s < state.segments.size(); ++s)
+    if (is_usable(state.segments[s])) all.segments.push_back(s);
+  return all;
+}
 
 Trouble trouble_of(State& state, const Step& step, const Threads& threads, std::size_t most) {
   const Complex complex = state.complex();

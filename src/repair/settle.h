@@ -23,6 +23,9 @@ struct Trouble {
 [[nodiscard]] Trouble trouble_of(State& state, const Step& step, const Threads& threads,
                                  std::size_t most = SIZE_MAX);
 
+/// All facets and segments whose corners exist and are finite.
+[[nodiscard]] Trouble everything(const State& state);
+
 /// Number of comparisons of a vertex with a side or facet, and its limit. Without a limit, a few facets may
 /// be led to and fro through each other's vertices for minutes.
 struct Work {

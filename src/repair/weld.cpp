@@ -8,27 +8,9 @@
 #include "numbers/sorted.h"
 #include "repair/bounds.h"
 #include "repair/near.h"
-#include "repair/passings.h"
 #include "surface/aabb_tree.h"
 
 namespace holdfast::repairing {
-namespace {
-
-bool is_usable(const State& state, std::span<const Index> corners) {
-  return std::all_of(corners.begin(), corners.end(),
-                     [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); });
-}
-
-Trouble all_usable(const State& state) {
-  Trouble all;
-  for (Index f = 0; f < state.facets.size(); ++f)
-    if (is_usable(state, state.facets[f])) all.facets.push_back(f);
-  for (Index s = 0; s < state.segments.size(); ++s)
-    if (is_usable(state, state.segments[s])) all.segments.push_back(s);
-  return all;
-}
-
-}  // namespace
 
 double weld(State& state, double tolerance, const Step& step) {
   constexpr double kRoomForRounding = 0x1p-20;  // as a share of the tolerance
@@ -41,7 +23,7 @@ double weld(State& state, double tolerance, const Step& step) {
   constexpr double kThinnest = 0x1p6;  // last bits
   const bool is_thin = tolerance <= kThinnest * last_bit(state.vertices);
   const Passings passings = is_thin ? Passings::edges : Passings::bodies;
-  return settle(state, all_usable(state), {gap, gap, true, passings}, work, step);
+  return settle(state, everything(state), {gap, gap, true, passings}, work, step);
 }
 
 std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double widest,
@@ -73,18 +55,6 @@ std::optional<double> distance_of_twins(const State& state, const Trouble& troub
   std::nth_element(least.begin(), middle, least.end());
   if (*middle > widest) return std::nullopt;
   return *middle;
-}
-
-EdgesPass edges_that_pass(const State& state, double widest, const Step& step) {
-  Work work;
-  EdgesPass edges;
-  for (const SidesPass& place :
-       passings_of(state, all_usable(state), Passings::bodies, bodies_of(state), widest, work, step)) {
-    if (!(place.distance > 0)) continue;
-    ++edges.count;
-    edges.distance = place.distance;  // in ascending order
-  }
-  return edges;
 }
 
 }  // namespace holdfast::repairing

@@ -19,11 +19,4 @@ double weld(State& state, double tolerance, const Step& step);
 [[nodiscard]] std::optional<double> distance_of_twins(const State& state, const Trouble& trouble,
                                                       double widest, const Step& step);
 
-/// Where edges of different bodies pass each other at most `widest` away, but do not meet.
-struct EdgesPass {
-  std::size_t count = 0;
-  double distance = 0;  ///< the largest
-};
-[[nodiscard]] EdgesPass edges_that_pass(const State& state, double widest, const Step& step);
-
 }  // namespace holdfast::repairing

@@ -468,6 +468,16 @@ class Proposals(Repaired):
         touching = self.program_says_of("out.off")
         self.assertEqual((touching["valid"], touching["summary"]["encloses"]), (True, 3))
 
+    def test_faces_of_a_valid_surface_that_nearly_touch(self):
+        points = cube() + [(x + 0.3, y + 0.2, z + 1 + 1e-7) for x, y, z in cube()]
+        self.write("in.off", off(points, CUBE_FACETS + shifted(CUBE_FACETS, 8)))
+        found = self.program_says_of("in.off")
+        self.assertEqual((found["valid"], found["summary"]["encloses"], found["cures"]["options"]), (True, 2, ""))
+        self.repair("in.off", options=found["cures"]["proposals"][0]["option"].split())
+        self.check("in.off")
+        touching = self.program_says_of("out.off")
+        self.assertEqual((touching["valid"], touching["cures"]["proposals"]), (True, []))
+
     def test_edges_that_nearly_touch(self):
         def roof(along, height):
             points = [(-1, 0, 0), (1, 0, 0), (-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1)]
