@@ -14,9 +14,9 @@ class Budget {
   /// For a mesh of so many tetrahedra, or for so many of a mesh of `all`.
   explicit Budget(std::size_t tets) : Budget(tets, tets) {}
   Budget(std::size_t tets, std::size_t all)
-      : most_(tuning::kLeastWork + tuning::kWorkPerTet * tets),
+      : most_(std::min(tuning::kMostWork, proportional(tets))),
         usual_(
-            std::min(most_ / tuning::kUsualShare,
+            std::min(proportional(tets) / tuning::kUsualShare,
                      tuning::kMostUsual / std::max<std::size_t>(1, all / std::max<std::size_t>(1, tets)))) {}
 
   void spend(std::size_t work) { spent_ += work; }
@@ -28,7 +28,8 @@ class Budget {
     if (is_fixed_) return spent_ >= most_;
     const std::size_t budget = worth_a_point ? most_ : usual_;
     const bool is_promising = betters_the_worst || spent_ < at_gain_ + tuning::kIdle;
-    return spent_ >= (is_promising ? tuning::kPromisingTimes * budget : budget);
+    return spent_ >=
+           (is_promising ? std::min(tuning::kPromisingTimes * budget, tuning::kMostPromising) : budget);
   }
   [[nodiscard]] bool is_half_spent() const { return spent_ >= most_ / 2; }
   [[nodiscard]] double fraction() const { return static_cast<double>(spent_) / static_cast<double>(most_); }
@@ -48,6 +49,10 @@ class Budget {
   [[nodiscard]] std::size_t spent() const { return spent_; }
 
  private:
+  static std::size_t proportional(std::size_t tets) {
+    return tuning::kLeastWork + tuning::kWorkPerTet * tets;
+  }
+
   std::size_t most_, usual_;  // for elements worth a point, and for the rest
   std::size_t spent_ = 0, at_gain_ = 0;
   bool is_fixed_ = false;
