@@ -35,7 +35,7 @@ class AvsReader {
     read_nodes(nodes);
     for (std::size_t i = 0; i < cells; ++i) read_cell();
     for (std::size_t i = 0; i < markers_.size(); ++i) mesh_.vertex_markers.add(i, markers_[i]);
-    turn_if_all_are_turned(mesh_, "all tetrahedra are oriented opposite to VTK's, and are reversed");
+    turn_to_vtk(mesh_);
     if (values[0] > 0) mesh_.remarks.push_back({RemarkKind::left_out, 1, "values at nodes are left out"});
     if (values[1] > 0) mesh_.remarks.push_back({RemarkKind::left_out, 1, "values of cells are left out"});
     return std::move(mesh_);

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "holdfast/io.h"
+#include "io/endings.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/text_reader.h"
@@ -18,7 +19,7 @@ std::string extension_of(const std::filesystem::path& path, std::string_view for
   std::string extension =
       io::lower(format.empty() ? io::without_gz(path).extension().string() : std::string(format));
   if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
-  return extension;
+  return io::usual_ending(std::move(extension));
 }
 
 /// Whether the vertices are in a separate .node file: then the first number, their count, is 0.
@@ -45,7 +46,8 @@ Paths tetgen_files(const std::filesystem::path& path) {
 
 Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
   const std::string extension = extension_of(path, format);
-  for (const std::string_view of_several : {".vtu", ".pvtu", ".vtm", ".xdmf", ".openfoam", ""})
+  for (const std::string_view of_several :
+       {".vtu", ".pvtu", ".pvtp", ".pvd", ".vtm", ".xdmf", ".openfoam", ""})
     if (extension == of_several) return files_of_volume(path, format);
   if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
     return {path, io::sibling(path, ".node")};
@@ -64,7 +66,8 @@ Paths files_of_volume(const std::filesystem::path& path, std::string_view format
   if (extension == ".xdmf")
     return {path, io::with_ending(path, ".h5"), io::surface_beside(path),
             io::surface_beside(io::with_ending(path, ".h5"))};
-  if (extension == ".pvtu") return io::pvtu_files(path);
+  if (extension == ".pvtu" || extension == ".pvtp") return io::pvtu_files(path);
+  if (extension == ".pvd") return io::pvd_files(path);
   if (extension == ".vtm") {
     const std::filesystem::path grid = io::with_ending(plain, ".vtu");
     return {path, grid, io::surface_beside(grid)};

@@ -99,6 +99,11 @@ void write_xdmf(const std::filesystem::path& path, const Volume& volume, const W
 [[nodiscard]] MeshData read_med(const Source& source);
 void write_med(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_med(const Volume& volume, const WriteOptions& options);
+/// Exodus II.
+[[nodiscard]] MeshData read_exodus(const Source& source);
+/// Throws std::invalid_argument if an array is longer than the format's version 2 can say.
+void write_exodus(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_exodus(const Volume& volume, const WriteOptions& options);
 /// Reads the folder that the source names; the source has no bytes of its own.
 [[nodiscard]] MeshData read_openfoam(const Source& source);
 /// Writes OpenFOAM's polyMesh into a folder, which is created if necessary.
@@ -113,10 +118,14 @@ void write_openfoam(const std::filesystem::path& folder, const Volume& volume, c
 /// The files of the polyMesh, as they are written.
 [[nodiscard]] std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& path);
 [[nodiscard]] MeshData read_vtm(const Source& source);
-/// Joins the pieces that the file names.
+/// .pvtu or .pvtp: joins the pieces that the file names.
 [[nodiscard]] MeshData read_pvtu(const Source& source);
 /// The file, its pieces and the files beside these; only the file itself if it cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> pvtu_files(const std::filesystem::path& path);
+/// The parts of the first time step that a .pvd file lists.
+[[nodiscard]] MeshData read_pvd(const Source& source);
+/// The file, its parts and theirs; only the file itself if it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> pvd_files(const std::filesystem::path& path);
 /// NAME_surface with the same ending.
 [[nodiscard]] std::filesystem::path surface_beside(const std::filesystem::path& path);
 [[nodiscard]] std::filesystem::path with_ending(const std::filesystem::path& path, const char* ending);

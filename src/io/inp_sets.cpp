@@ -18,19 +18,6 @@ constexpr std::size_t kMostPerElement = 16;
 
 bool is_number(std::string_view field) { return !field.empty() && field[0] >= '0' && field[0] <= '9'; }
 
-/// Adds a side of a tetrahedron, with the nodes on its edges if the tetrahedron has some.
-void add_facet(MeshData& mesh, Index tetrahedron, const std::array<std::size_t, 3>& outward,
-               const Triangle& facet) {
-  if (tetrahedron >= mesh.mids.tetrahedra.size() || mesh.mids.tetrahedra[tetrahedron][0] == no_entity)
-    return mesh.add_facet(facet);
-  constexpr std::size_t kEdge[4][4] = {{0, 0, 2, 3}, {0, 0, 1, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}};
-  const std::array<Index, 6>& mids = mesh.mids.tetrahedra[tetrahedron];
-  add_second_order(mesh, facet,
-                   {mids[kEdge[outward[0]][outward[1]]], mids[kEdge[outward[1]][outward[2]]],
-                    mids[kEdge[outward[0]][outward[2]]]},
-                   0);
-}
-
 }  // namespace
 
 void InpSets::add_listed(const std::string& name, const Members& members) {
@@ -148,7 +135,7 @@ class InpSurfaces::Facets {
     }
     const std::size_t opposite = kOpposite[number_of(text, side, 4)];
     const Triangle facet = outward_face(mesh_.tetrahedra[element.entity], opposite);
-    if (add_once(facet)) add_facet(mesh_, element.entity, outward_faces[opposite], facet);
+    if (add_once(facet)) add_side(mesh_, element.entity, opposite, 0);
     markers_[facet_of_.at(ascending(facet))] = id;
   }
 

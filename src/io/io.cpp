@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "io/cells.h"
+#include "io/endings.h"
 #include "io/file_bytes.h"
 #include "io/formats.h"
 #include "io/indices.h"
@@ -71,6 +72,8 @@ constexpr Format kFormats[] = {
     {".smesh", read_smesh, nullptr, nullptr},
     {".vtu", read_vtu, read_vtu, write_vtu},
     {".pvtu", read_pvtu, read_pvtu, nullptr},
+    {".pvtp", read_pvtu, nullptr, nullptr},
+    {".pvd", read_pvd, read_pvd, nullptr},
     {".vtm", read_vtm, read_vtm, write_vtm},
     {".vtp", read_vtu, nullptr, nullptr},
     {".vtk", read_vtk, read_vtk, write_file<write_vtk>},
@@ -87,6 +90,7 @@ constexpr Format kFormats[] = {
     {".vol", read_vol, read_vol, write_file<write_vol>, not_in_vol},
     {".xdmf", read_xdmf, read_xdmf, write_xdmf, not_in_xdmf},
     {".med", read_med, read_med, write_file<write_med>, not_in_med},
+    {".exo", read_exodus, read_exodus, write_file<write_exodus>, not_in_exodus},
     {".openfoam", read_openfoam, read_openfoam, write_openfoam, not_in_openfoam},
     {".node", read_node, read_tetgen_volume, write_tetgen_files, nullptr, false},
     {".ele", nullptr, read_tetgen_volume, write_tetgen_files, nullptr, false},
@@ -114,7 +118,7 @@ std::string extension_of(const std::filesystem::path& path, std::string_view for
   std::string extension = lower(format.empty() ? path.extension().string() : std::string(format));
   if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
   if (extension.empty() && is_poly_mesh(path)) extension = ".openfoam";
-  return extension;
+  return usual_ending(std::move(extension));
 }
 
 /// How to convert a file of an unsupported format into a readable one; empty if unknown.

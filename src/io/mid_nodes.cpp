@@ -69,6 +69,17 @@ void add_second_order(MeshData& mesh, const Segment& corners, Index mid, int mar
   mesh.add_segment(corners, marker);
 }
 
+void add_side(MeshData& mesh, Index tetrahedron, std::size_t opposite, int marker) {
+  const Triangle facet = outward_face(mesh.tetrahedra[tetrahedron], opposite);
+  if (tetrahedron >= mesh.mids.tetrahedra.size() || mesh.mids.tetrahedra[tetrahedron][0] == no_entity)
+    return mesh.add_facet(facet, marker);
+  constexpr std::size_t kEdge[4][4] = {{0, 0, 2, 3}, {0, 0, 1, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}};
+  const std::array<Index, 6>& mids = mesh.mids.tetrahedra[tetrahedron];
+  const std::array<std::size_t, 3>& corners = outward_faces[opposite];
+  const auto mid = [&](std::size_t i, std::size_t k) { return mids[kEdge[corners[i]][corners[k]]]; };
+  add_second_order(mesh, facet, {mid(0, 1), mid(1, 2), mid(0, 2)}, marker);
+}
+
 void add_no_corners(MeshData& mesh, std::span<const Index> nodes) {
   mesh.mids.others.insert(mesh.mids.others.end(), nodes.begin(), nodes.end());
 }

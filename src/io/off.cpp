@@ -147,10 +147,25 @@ class OffReader {
     text_.skip_line();
   }
 
-  /// Reads big-endian 32-bit numbers after the header's line; the colour of a face has its count first.
+  /// OpenMesh writes numbers little-endian, and faces without a colour's count. Such counts of vertices and
+  /// faces are nonsense when read big-endian.
+  [[nodiscard]] bool is_of_openmesh() const {
+    const auto fits = [&](std::endian order) {
+      ByteReader bytes(source_, order, text_.position());
+      if (bytes.left() < 12) return false;
+      const std::uint64_t vertices = bytes.read<std::uint32_t>(), faces = bytes.read<std::uint32_t>();
+      static_cast<void>(bytes.read<std::uint32_t>());
+      return 12 * vertices + 8 * faces <= bytes.left();
+    };
+    return !fits(std::endian::big) && fits(std::endian::little);
+  }
+
+  /// Reads 32-bit numbers after the header's line, big-endian if the file follows the format; then the colour
+  /// of a face has its count first.
   void read_bytes(const Header& header) {
     text_.skip_line();
-    ByteReader bytes(source_, std::endian::big, text_.position());
+    has_colour_counts_ = !is_of_openmesh();
+    ByteReader bytes(source_, has_colour_counts_ ? std::endian::big : std::endian::little, text_.position());
     const auto vertices = bytes.read<std::uint32_t>(), faces = bytes.read<std::uint32_t>();
     static_cast<void>(bytes.read<std::uint32_t>());  // the number of edges
     bytes.require_items(vertices, 4 * (3 + header.floats_behind), "vertices");
@@ -179,6 +194,7 @@ class OffReader {
                    std::to_string(mesh_.vertices.size()) + " vertices and the first is 0");
     }
     add_polygon(mesh_, corners_, 0, [&](const std::string& reason) { bytes.fail(reason); });
+    if (!has_colour_counts_) return;
     const auto components = bytes.read<std::uint32_t>();
     if (components > 4)
       bytes.fail("a colour of " + std::to_string(components) + " components; there are 4 at most");
@@ -191,6 +207,7 @@ class OffReader {
   MeshData mesh_;
   std::vector<Index> corners_;
   std::size_t decorated_ = 0;
+  bool has_colour_counts_ = true;             ///< behind the faces of a binary file
   std::optional<std::size_t> behind_vertex_;  ///< numbers behind a vertex, where lines do not tell their end
 };
 

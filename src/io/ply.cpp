@@ -4,6 +4,7 @@
 // with an integer "marker", tristrips {vertex_indices}, and names in comments. Other elements and properties
 // are skipped.
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -17,7 +18,8 @@
 namespace holdfast::io {
 namespace {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+// int64 and uint64 are no types of the format's first description, but meshio and others write them.
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 struct Property {
   std::string name;
@@ -41,7 +43,7 @@ struct Header {
 };
 
 std::size_t size_of(PlyType type) {
-  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return kSizes[static_cast<std::size_t>(type)];
 }
 
@@ -51,12 +53,12 @@ PlyType read_type(TextReader& text) {
     PlyType type;
   };
   constexpr Name kNames[] = {
-      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
-      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
-      {"float64", PlyType::float64}};
+      {"char", PlyType::int8},       {"int8", PlyType::int8},      {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},     {"short", PlyType::int16},    {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},  {"int", PlyType::int32},
+      {"int32", PlyType::int32},     {"uint", PlyType::uint32},    {"uint32", PlyType::uint32},
+      {"int64", PlyType::int64},     {"uint64", PlyType::uint64},  {"float", PlyType::float32},
+      {"float32", PlyType::float32}, {"double", PlyType::float64}, {"float64", PlyType::float64}};
   const std::string_view word = text.word_on_line();
   for (const Name& name : kNames)
     if (name.name == word) return name.type;
@@ -176,6 +178,10 @@ class BinaryValues {
         return bytes_.read<std::int32_t>();
       case PlyType::uint32:
         return bytes_.read<std::uint32_t>();
+      case PlyType::int64:
+        return bytes_.read<std::int64_t>();
+      case PlyType::uint64:
+        return static_cast<std::int64_t>(std::min<std::uint64_t>(bytes_.read<std::uint64_t>(), INT64_MAX));
       default:
         bytes_.fail("an index must be an integer, not a real");
     }

@@ -1,4 +1,4 @@
-// Reads VTK's parallel XML format, whose file lists the pieces of processes
+// Reads VTK's parallel XML formats, .pvtu and .pvtp, whose files list the pieces of processes
 // (https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html, "PUnstructuredGrid"). Copies of other
 // pieces' cells are skipped, and points are joined by their global ids or, without ids, by their places.
 #include <set>
@@ -7,6 +7,7 @@
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/turn.h"
 #include "io/vtu_join.h"
 
 namespace holdfast::io {
@@ -23,26 +24,29 @@ struct NamedPiece {
 std::vector<NamedPiece> named_pieces(const Source& source, XmlReader& xml) {
   std::vector<NamedPiece> pieces;
   std::set<fs::path> seen;
-  bool is_index = false;
+  std::string_view ending_of_pieces;
   while (std::optional<XmlTag> tag = xml.next()) {
     if (tag->closing) continue;
     if (tag->name == "VTKFile") {
       const std::string type = tag->attribute("type");
-      if (type != "PUnstructuredGrid")
-        xml.fail(*tag, "the type " + in_quotes(type) + " is not read; only PUnstructuredGrid is");
-      is_index = true;
+      if (type != "PUnstructuredGrid" && type != "PPolyData")
+        xml.fail(*tag,
+                 "the type " + in_quotes(type) + " is not read; only PUnstructuredGrid and PPolyData are");
+      ending_of_pieces = type == "PPolyData" ? ".vtp" : ".vtu";
     }
     if (tag->name != "Piece") continue;
     const std::string name = unescaped(tag->attribute("Source"));
     if (name.empty()) xml.fail(*tag, "the piece names no file: it has no Source");
     const fs::path path = source.path.parent_path() / name;
-    if (const std::string ending = lower(without_gz(path).extension().string()); ending != ".vtu")
-      xml.fail(*tag, "a piece in the format " + in_quotes(ending) + " is not read; only .vtu is");
+    if (const std::string ending = lower(without_gz(path).extension().string()); ending != ending_of_pieces)
+      xml.fail(*tag, "a piece in the format " + in_quotes(ending) + " is not read; only " +
+                         std::string(ending_of_pieces) + " is");
     if (!seen.insert(path.lexically_normal()).second)
       xml.fail(*tag, "the piece " + in_quotes(name) + " is named twice");
     pieces.push_back({*std::move(tag), path});
   }
-  if (!is_index) throw FileError(source.path, "", "not a VTK XML file: it has no VTKFile element");
+  if (ending_of_pieces.empty())
+    throw FileError(source.path, "", "not a VTK XML file: it has no VTKFile element");
   if (pieces.empty()) throw FileError(source.path, "", "the file names no pieces");
   return pieces;
 }
@@ -76,7 +80,9 @@ std::vector<VtuPiece> read_pieces(const Source& source) {
 
 MeshData read_pvtu(const Source& source) {
   std::vector<VtuPiece> pieces = read_pieces(source);
-  return joined(pieces);
+  MeshData mesh = joined(pieces);
+  turn_to_vtk(mesh);
+  return mesh;
 }
 
 std::vector<fs::path> pvtu_files(const fs::path& path) {

@@ -35,4 +35,8 @@ void turn_if_all_are_turned(MeshData& mesh, const std::string& remark) {
   mesh.remarks.push_back({RemarkKind::left_out, all.size(), remark});
 }
 
+void turn_to_vtk(MeshData& mesh) {
+  turn_if_all_are_turned(mesh, "all tetrahedra are oriented opposite to VTK's, and are reversed");
+}
+
 }  // namespace holdfast::io

@@ -11,6 +11,9 @@ namespace holdfast::io {
 /// only some are negative, the file is wrong and stays as it is.
 void turn_if_all_are_turned(MeshData& mesh, const std::string& remark);
 
+/// The same for formats in which programs build on VTK's order; FreeCAD writes .vtu that way.
+void turn_to_vtk(MeshData& mesh);
+
 /// Whether the volume of a tetrahedron is negative in plain arithmetic: no topology depends on it.
 [[nodiscard]] bool is_turned(const Tetrahedron& t, const std::vector<Point>& vertices);
 

@@ -90,11 +90,12 @@ class UnvWriter {
     end(out_);
   }
 
-  /// The id is the physical property. The material is left empty, because Gmsh would make groups of it, too.
+  /// The id is the physical property, and the colour, of which code_saturne makes groups. The material is
+  /// left empty, because Gmsh would make groups of it, too.
   void element(int type, int id, const Nodes& nodes) {
     beat(out_.watch());
     for (const std::int64_t value : {++number_, std::int64_t{type}, std::int64_t{id}, std::int64_t{0},
-                                     std::int64_t{7}, static_cast<std::int64_t>(nodes.count)})
+                                     std::int64_t{id}, static_cast<std::int64_t>(nodes.count)})
       column(out_, value);
     out_ << '\n';
     if (type == 11 || type == 24)

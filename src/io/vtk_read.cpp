@@ -10,6 +10,7 @@
 
 #include "io/formats.h"
 #include "io/text_reader.h"
+#include "io/turn.h"
 #include "io/vtk_cells.h"
 #include "io/vtk_values.h"
 #include "text/count.h"
@@ -373,6 +374,10 @@ class VtkReader {
 
 }  // namespace
 
-MeshData read_vtk(const Source& source) { return VtkReader(source).read(); }
+MeshData read_vtk(const Source& source) {
+  MeshData mesh = VtkReader(source).read();
+  turn_to_vtk(mesh);
+  return mesh;
+}
 
 }  // namespace holdfast::io

@@ -11,6 +11,7 @@
 #include "io/formats.h"
 #include "io/mid_nodes.h"
 #include "io/pieces.h"
+#include "io/turn.h"
 #include "io/vtu_join.h"
 
 namespace holdfast::io {
@@ -154,7 +155,11 @@ VtuBlock read_vtu_blocks(const Source& source, VtuGhosts ghosts) {
   return block;
 }
 
-MeshData read_vtu(const Source& source) { return read_vtu_blocks(source).mesh; }
+MeshData read_vtu(const Source& source) {
+  MeshData mesh = read_vtu_blocks(source).mesh;
+  turn_to_vtk(mesh);
+  return mesh;
+}
 
 MeshData read_vtm(const Source& source) {
   XmlReader xml(source);
@@ -186,6 +191,7 @@ MeshData read_vtm(const Source& source) {
   if (!is_index)
     throw FileError(source.path, "", "not a VTK multi-block file: it has no VTKFile of this type");
   if (seen.empty()) throw FileError(source.path, "", "the file names no blocks");
+  turn_to_vtk(mesh);
   return mesh;
 }
 

@@ -11,6 +11,7 @@
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/text_reader.h"
+#include "io/turn.h"
 #include "io/xdmf_file.h"
 
 namespace holdfast::io {
@@ -283,6 +284,10 @@ class XdmfReader {
 
 }  // namespace
 
-MeshData read_xdmf(const Source& source) { return XdmfReader(source).read(); }
+MeshData read_xdmf(const Source& source) {
+  MeshData mesh = XdmfReader(source).read();
+  turn_to_vtk(mesh);
+  return mesh;
+}
 
 }  // namespace holdfast::io

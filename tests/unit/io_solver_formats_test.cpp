@@ -51,6 +51,7 @@ std::vector<Held> formats() {
           {"a.inp"},
           {"a.unv"},
           {"a.vol"},
+          {"a.exo"},
           {"a.bdf", false},
           {"a.mfem", true, true, true, false},
           {"a.su2", true, false, false, false}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/byte_reader.h"
 #include "io_samples.h"
 
 namespace holdfast {
@@ -105,6 +106,40 @@ TEST_F(SurfaceVariants, ColoursOfVerticesInObj) {
   EXPECT_EQ(s.facets.size(), 1u);
   ASSERT_EQ(s.remarks.size(), 1u);
   EXPECT_EQ(s.remarks[0].message, "2 colours or weights of vertices are left out");
+}
+
+TEST_F(SurfaceVariants, BinaryOffAsOpenMeshWritesIt) {
+  std::string bytes = "OFF BINARY\n";
+  for (const std::uint32_t count : {3, 2, 0}) io::store(bytes, count, std::endian::little);
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F})
+    io::store(bytes, x, std::endian::little);
+  for (const std::uint32_t n : {3, 0, 1, 2, 3, 2, 1, 0}) io::store(bytes, n, std::endian::little);
+  const Surface s = surface(bytes, "a.off");
+  EXPECT_EQ(s.vertices, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(s.facets, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
+  EXPECT_NE(error(bytes + "more", "a.off").find("bytes after the last of 2 faces"), std::string::npos);
+}
+
+TEST_F(SurfaceVariants, IntegersOf64BitsInPly) {
+  const std::string head =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty int64 marker\n"
+      "element face 1\nproperty list uint8 uint64 vertex_indices\nend_header\n";
+  const Surface text =
+      surface("ply\nformat ascii 1.0\n" + head + "0 0 0 7\n1 0 0 8\n0 1 0 9\n3 0 1 2\n", "a.ply");
+  EXPECT_EQ(text.facets, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(text.vertex_markers, (std::vector<int>{7, 8, 9}));
+  std::string bytes = "ply\nformat binary_little_endian 1.0\n" + head;
+  for (const int i : {0, 1, 2}) {
+    for (const float x : {i == 1 ? 1.F : 0.F, i == 2 ? 1.F : 0.F, 0.F})
+      io::store(bytes, x, std::endian::little);
+    io::store(bytes, std::int64_t{7} + i, std::endian::little);
+  }
+  bytes += '\3';
+  for (const std::uint64_t v : {0, 1, 2}) io::store(bytes, v, std::endian::little);
+  const Surface binary = surface(bytes, "a.ply");
+  EXPECT_EQ(binary.vertices, text.vertices);
+  EXPECT_EQ(binary.facets, text.facets);
+  EXPECT_EQ(binary.vertex_markers, text.vertex_markers);
 }
 
 TEST_F(SurfaceVariants, FacesBeforeVerticesInPly) {
