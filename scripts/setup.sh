@@ -12,7 +12,8 @@ declare -A packages=(
   [python-test]="python3-pytest mypy python3-build python3-meshio python3-vtk9 python3-distributed python3-tqdm"
   [paper]="python3-numpy"
   [solvers]="calculix-ccx openfoam freefem++ libfreefem++ python3-dolfinx python3-getfem python3-netgen python3-sfepy python3-meshio
-             python3-vtk9 python3-gmsh python3-h5py gmsh netgen libmed-tools libdeal.ii-dev"
+             python3-vtk9 python3-gmsh python3-h5py gmsh netgen libmed-tools libdeal.ii-dev python3-dolfin getdp python3-escript
+             python3-petsc4py code-saturne-bin rheolef python3-netcdf4"
   [slurm]="slurmctld slurmd slurm-client munge"
   [bench]="admesh tetgen libtet1.5-dev gmsh libcgal-dev libgmp-dev libmpfr-dev libtbb-dev libbenchmark-dev"
   [field]="gmsh tetgen python3-netgen"

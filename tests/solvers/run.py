@@ -24,20 +24,21 @@ READS = {
     "vtu": ["meshio", "vtk", "sfepy"],
     "vtm": ["vtk"],
     "vtk": ["meshio", "vtk"],
-    "msh": ["gmsh", "meshio", "dolfinx", "getfem", "dealii"],
-    "msh2": ["meshio", "gmsh", "openfoam", "freefem", "getfem", "dealii"],
-    "msh binary": ["gmsh", "meshio", "dolfinx"],
-    "msh2 binary": ["meshio", "gmsh"],
+    "msh": ["gmsh", "meshio", "dolfinx", "getfem", "dealii", "petsc", "escript", "saturne"],
+    "msh2": ["meshio", "gmsh", "openfoam", "freefem", "getfem", "dealii", "petsc", "getdp", "escript", "saturne", "rheolef"],
+    "msh binary": ["gmsh", "meshio", "dolfinx", "petsc", "saturne"],
+    "msh2 binary": ["meshio", "gmsh", "petsc", "getdp", "saturne"],
     "mesh": ["meshio", "freefem", "gmsh", "sfepy"],
     "meshb": ["freefem"],
     "inp": ["ccx", "meshio"],
-    "unv": ["openfoam", "gmsh"],
+    "unv": ["openfoam", "gmsh", "saturne"],
     "bdf": ["meshio", "gmsh"],
     "su2": ["meshio"],
     "mfem": ["parser"],
     "vol": ["meshio", "netgen"],
-    "xdmf": ["meshio", "dolfinx"],
-    "med": ["meshio", "libmed"],
+    "xdmf": ["meshio", "dolfinx", "dolfin"],
+    "med": ["meshio", "libmed", "saturne"],
+    "exo": ["vtk", "meshio"],
     "node": ["meshio"],
     "openfoam": ["openfoam"],
 }
@@ -45,8 +46,8 @@ READS = {
 SECOND_ORDER = {
     "vtu": ["meshio", "vtk"],
     "vtk": ["meshio", "vtk"],
-    "msh": ["gmsh", "meshio", "dolfinx"],
-    "msh2": ["meshio", "gmsh"],
+    "msh": ["gmsh", "meshio", "dolfinx", "escript"],
+    "msh2": ["meshio", "gmsh", "getdp", "escript", "rheolef"],
     "msh binary": ["gmsh", "meshio"],
     "inp": ["ccx"],
     "unv": ["gmsh"],
@@ -54,11 +55,14 @@ SECOND_ORDER = {
     "vol": ["netgen"],
     "xdmf": ["meshio", "dolfinx"],
     "med": ["meshio", "libmed"],
+    "exo": ["vtk", "meshio"],
 }
 PROGRAMS = ["meshio", "vtk", "gmsh", "dolfinx", "sfepy", "getfem", "freefem", "netgen", "openfoam", "ccx", "dealii",
-            "libmed", "parser"]
-LEAST = {"openfoam": "checkMesh", "freefem": "FreeFem++", "gmsh": "gmsh", "ccx": "ccx", "libmed": "mdump"}
-MODULE = {"meshio": "meshio", "vtk": "vtk", "dolfinx": "dolfinx", "sfepy": "sfepy", "getfem": "getfem", "netgen": "netgen"}
+            "libmed", "petsc", "getdp", "escript", "dolfin", "saturne", "rheolef", "parser"]
+LEAST = {"openfoam": "checkMesh", "freefem": "FreeFem++", "gmsh": "gmsh", "ccx": "ccx", "libmed": "mdump", "getdp": "getdp",
+         "escript": "run-escript3", "rheolef": "msh2geo", "saturne": "/usr/lib/code_saturne/cs_preprocess"}
+MODULE = {"meshio": "meshio", "vtk": "vtk", "dolfinx": "dolfinx", "sfepy": "sfepy", "getfem": "getfem", "netgen": "netgen",
+          "petsc": "petsc4py", "dolfin": "dolfin"}
 
 
 def is_installed(name):
@@ -238,8 +242,13 @@ def document(rows, second, solved):
             "a named interface) into every format, and lets each program that reads the format report what it finds: *counts* of",
             "points and tetrahedra, *regions* with their volumes, *faces* with the area of each marker, *names*. Everything listed",
             "in a cell was right in that run, unless marked **wrong**; an empty cell means that the program does not read the format.",
-            "*dealii* is deal.II, with files of `--no-interfaces`; *libmed* is its `mdump`; *parser* is the test's own reader of",
-            "MFEM's format, as MFEM has no Debian package. MFEM's meshes are of first order here.", "",
+            "*dealii* is deal.II, with files of `--no-interfaces`; *libmed* is its `mdump`; *dolfin* is the legacy DOLFIN; *saturne*",
+            "is code_saturne; *parser* is the test's own reader of MFEM's format, as MFEM has no Debian package. MFEM's meshes are",
+            "of first order here.", "",
+            "GetDP (as Debian builds it), rheolef and DUNE read `.msh` of version 2.2 only (`--format msh2`), and escript, rheolef",
+            "and DUNE only as text. DUNE's GmshReader takes no names of groups (leave out what is between `$PhysicalNames` and",
+            "`$EndPhysicalNames`), and with UGGrid no interfaces (`--no-interfaces`). FreeCAD reads `.med` if the mesh has the",
+            "file's name, and `.bdf` only of second order; it reads `.unv` with the groups.", "",
             *lines_of(READS, rows), "", "## Second order", "", "`mesh --order 2`, read by the same programs if they support it.", "",
             *lines_of(SECOND_ORDER, second)]
     text += ["", "## Problems solved", "", "| | found | expected |", "|---|---|---|"]

@@ -234,4 +234,91 @@ def getfem(program, folder, second_order):
     return [("GetFEM: end of a bar of two materials (E = 1 and 3) under tension", float(found[1]), 4 / 3, 1e-6)]
 
 
-ALL = {"calculix": calculix, "openfoam": openfoam, "freefem": freefem, "dolfinx": dolfinx, "getfem": getfem}
+GETDP = """
+Group { Low = Region[1]; High = Region[2]; Om = Region[{10, 20}]; }
+Constraint { { Name T; Case { { Region Low; Value 0.; } { Region High; Value 3.; } } } }
+FunctionSpace { { Name H; Type Form0; BasisFunction { { Name s; NameOfCoef v; Function BF_Node; Support Region[{Om, Low, High}];
+                  Entity NodesOf[All]; } } Constraint { { NameOfCoef v; EntityType NodesOf; NameOfConstraint T; } } } }
+Jacobian { { Name J; Case { { Region All; Jacobian Vol; } } } }
+Integration { { Name I; Case { { Type Gauss; Case { { GeoElement Tetrahedron; NumberOfPoints 4; } } } } } }
+Formulation { { Name F; Type FemEquation; Quantity { { Name u; Type Local; NameOfSpace H; } }
+                Equation { Integral { [ Dof{d u}, {d u} ]; In Om; Jacobian J; Integration I; } } } }
+Resolution { { Name R; System { { Name A; NameOfFormulation F; } } Operation { Generate[A]; Solve[A]; SaveSolution[A]; } } }
+PostProcessing { { Name P; NameOfFormulation F; Quantity { { Name e; Value { Integral { [ SquNorm[{u} - X[]] ]; In Om; Jacobian J;
+                   Integration I; } } } } } }
+PostOperation { { Name O; NameOfPostProcessing P; Operation { Print[ e[Om], OnGlobal, Format Table, File "e.txt" ]; } } }
+"""
+
+
+def getdp(program, folder, second_order):
+    """A potential between two sides is linear."""
+    mesh(program, folder, folder / "a.msh", "--format", "msh2")
+    (folder / "p.pro").write_text(GETDP)
+    code, text = run(["getdp", "p.pro", "-msh", "a.msh", "-solve", "R", "-pos", "O"], folder)
+    if code:
+        raise ValueError("GetDP: " + text[-500:])
+    error = math.sqrt(abs(float((folder / "e.txt").read_text().split()[-1])))
+    return [("GetDP: Laplace between two sides, error of u = x in L2", error, 0, 1e-9)]
+
+
+ESCRIPT = """
+import sys
+from esys.escript import FunctionOnBoundary, Lsup, Scalar, insertTaggedValues, kronecker, whereZero
+from esys.escript.linearPDEs import LinearPDE
+from esys.finley import ReadGmsh
+domain = ReadGmsh(sys.argv[1], 3)
+x = domain.getX()
+# Held at one side, which the formula finds, and a flux through the other by its name: u = x.
+pde = LinearPDE(domain, numEquations=1)
+flux = insertTaggedValues(Scalar(0.0, FunctionOnBoundary(domain)), outlet=1.0)
+pde.setValue(A=kronecker(3), y=flux, q=whereZero(x[0]), r=0.0)
+pde.setSymmetryOn()
+pde.getSolverOptions().setTolerance(1e-12)
+print("@", Lsup(pde.getSolution() - x[0]))
+"""
+
+
+def escript(program, folder, second_order):
+    """A flux through the side named 'outlet' makes a linear field, on elements of both orders."""
+    rows = []
+    (folder / "p.py").write_text(ESCRIPT)
+    for order in (1, 2):
+        mesh(program, folder, folder / f"a{order}.msh", "--order", order)
+        code, text = run(["run-escript3", folder / "p.py", folder / f"a{order}.msh"], folder)
+        found = re.search(r"@ ([\d.e+-]+)", text)
+        if not found:
+            raise ValueError("escript: " + text[-500:])
+        rows.append((f"escript: flux through a named side, order {order}, largest error of u = x", float(found[1]), 0, 1e-9))
+    return rows
+
+
+DOLFIN = """
+import sys, numpy as np
+from dolfin import *
+set_log_level(40)
+mesh = Mesh()
+with XDMFFile(sys.argv[1]) as file:
+    file.read(mesh)
+values = MeshValueCollection("size_t", mesh, 2)
+with XDMFFile(sys.argv[1].replace(".xdmf", "_surface.xdmf")) as file:
+    file.read(values, "marker")
+sides = MeshFunction("size_t", mesh, values)
+V = FunctionSpace(mesh, "CG", 1)
+u, v, found = TrialFunction(V), TestFunction(V), Function(V)
+solve(inner(grad(u), grad(v)) * dx == Constant(0) * v * dx, found,
+      [DirichletBC(V, Constant(0), sides, 1), DirichletBC(V, Constant(3), sides, 2)])
+print("@", np.abs(found.vector().get_local() - V.tabulate_dof_coordinates()[:, 0]).max())
+"""
+
+
+def dolfin(program, folder, second_order):
+    mesh(program, folder, folder / "a.xdmf")
+    code, text = run(["/usr/bin/python3", "-c", DOLFIN, folder / "a.xdmf"], folder)
+    found = re.search(r"@ ([\d.e+-]+)", text)
+    if not found:
+        raise ValueError("DOLFIN: " + text[-500:])
+    return [("DOLFIN: Laplace between two sides, largest error of u = x", float(found[1]), 0, 1e-9)]
+
+
+ALL = {"calculix": calculix, "openfoam": openfoam, "freefem": freefem, "dolfinx": dolfinx, "getfem": getfem,
+       "getdp": getdp, "escript": escript, "dolfin": dolfin}
