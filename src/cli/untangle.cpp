@@ -177,7 +177,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->add_option(
           "VOLUME", arguments->input,
           "Tangled volume file (.vtu .pvtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol "
-          ".xdmf .med .exo .avs .node, "
+          ".xdmf .med .exo .cgns .avs .node, "
           "or OpenFOAM's constant/polyMesh)")
       ->transform(or_standard_input)
       ->required();

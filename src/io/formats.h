@@ -99,6 +99,10 @@ void write_xdmf(const std::filesystem::path& path, const Volume& volume, const W
 [[nodiscard]] MeshData read_med(const Source& source);
 void write_med(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_med(const Volume& volume, const WriteOptions& options);
+/// CGNS in HDF5.
+[[nodiscard]] MeshData read_cgns(const Source& source);
+void write_cgns(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_cgns(const Volume& volume, const WriteOptions& options);
 /// Exodus II.
 [[nodiscard]] MeshData read_exodus(const Source& source);
 /// Throws std::invalid_argument if an array is longer than the format's version 2 can say.

@@ -41,7 +41,10 @@ std::size_t bytes_of(Hdf5Type type) {
   switch (type) {
     case Hdf5Type::text80:
       return 80;
+    case Hdf5Type::int8:
+      return 1;
     case Hdf5Type::int32:
+    case Hdf5Type::float32:
       return 4;
     default:
       return 8;
@@ -55,7 +58,8 @@ Bytes dataspace(std::initializer_list<std::uint64_t> shape) {
   return bytes;
 }
 Bytes dataspace(const Hdf5Array& array) {
-  return array.columns == 1 ? dataspace({array.rows}) : dataspace({array.rows, array.columns});
+  return array.columns == 1 && !array.two_directions ? dataspace({array.rows})
+                                                     : dataspace({array.rows, array.columns});
 }
 
 Bytes integer_type(std::uint32_t size) {
@@ -74,12 +78,15 @@ Bytes text_type(std::uint32_t size) {
 
 Bytes datatype(Hdf5Type type) {
   Bytes bytes;
-  if (type == Hdf5Type::float64) {
-    // Version 1, class 1; little endian, a mantissa with an implied bit, the sign in bit 63.
-    bytes.put<std::uint8_t>(0x11).put<std::uint8_t>(0x20).put<std::uint8_t>(63).put<std::uint8_t>(0);
-    bytes.put<std::uint32_t>(8).put<std::uint16_t>(0).put<std::uint16_t>(64);
-    bytes.put<std::uint8_t>(52).put<std::uint8_t>(11).put<std::uint8_t>(0).put<std::uint8_t>(52);
-    bytes.put<std::uint32_t>(1023);
+  if (type == Hdf5Type::float64 || type == Hdf5Type::float32) {
+    // Version 1, class 1; little endian, a mantissa with an implied bit, the sign in the last bit.
+    const bool is_double = type == Hdf5Type::float64;
+    const std::uint8_t bits = is_double ? 64 : 32, mantissa = is_double ? 52 : 23,
+                       exponent = is_double ? 11 : 8;
+    bytes.put<std::uint8_t>(0x11).put<std::uint8_t>(0x20).put<std::uint8_t>(bits - 1).put<std::uint8_t>(0);
+    bytes.put<std::uint32_t>(bits / 8U).put<std::uint16_t>(0).put<std::uint16_t>(bits);
+    bytes.put(mantissa).put(exponent).put<std::uint8_t>(0).put(mantissa);
+    bytes.put<std::uint32_t>(is_double ? 1023 : 127);
   } else if (type == Hdf5Type::text80) {
     // Version 2, class 10: an array of 80 one-byte integers.
     bytes.put<std::uint8_t>(0x2A).zeros(3).put<std::uint32_t>(80);

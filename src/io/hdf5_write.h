@@ -17,8 +17,10 @@ struct Hdf5Attribute {
 };
 
 enum class Hdf5Type {
+  int8,
   int32,
   int64,
+  float32,
   float64,
   text80,  ///< 80 bytes, padded with zeros, as MED stores names
 };
@@ -30,6 +32,7 @@ struct Hdf5Array {
   std::uint64_t rows, columns;
   const void* values;  ///< rows * columns of the type, in the machine's byte order
   std::vector<Hdf5Attribute> attributes = {};
+  bool two_directions = false;  ///< also with one column
 };
 
 struct Hdf5Group {

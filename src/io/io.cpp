@@ -91,6 +91,7 @@ constexpr Format kFormats[] = {
     {".xdmf", read_xdmf, read_xdmf, write_xdmf, not_in_xdmf},
     {".med", read_med, read_med, write_file<write_med>, not_in_med},
     {".exo", read_exodus, read_exodus, write_file<write_exodus>, not_in_exodus},
+    {".cgns", read_cgns, read_cgns, write_file<write_cgns>, not_in_cgns},
     {".openfoam", read_openfoam, read_openfoam, write_openfoam, not_in_openfoam},
     {".node", read_node, read_tetgen_volume, write_tetgen_files, nullptr, false},
     {".ele", nullptr, read_tetgen_volume, write_tetgen_files, nullptr, false},

@@ -125,7 +125,8 @@ def with_saturne(path):
     """code_saturne's preprocessor, and the volume that its solver finds."""
     with tempfile.TemporaryDirectory() as folder:
         texts = []
-        for command in ([SATURNE / "cs_preprocess", path, "--out", "mesh_input"], [SATURNE / "cs_solver", "--quality"]):
+        of_sections = ["--grp-cel", "section", "--grp-fac", "section"] if path.suffix == ".cgns" else []
+        for command in ([SATURNE / "cs_preprocess", path, *of_sections, "--out", "mesh_input"], [SATURNE / "cs_solver", "--quality"]):
             run = subprocess.run([str(c) for c in command], cwd=folder, capture_output=True, text=True, errors="replace",
                                  timeout=300)
             texts.append(run.stdout + "".join(p.read_text(errors="replace") for p in Path(folder).glob("*.log")))

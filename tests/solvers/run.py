@@ -39,6 +39,7 @@ READS = {
     "xdmf": ["meshio", "dolfinx", "dolfin"],
     "med": ["meshio", "libmed", "saturne"],
     "exo": ["vtk", "meshio"],
+    "cgns": ["saturne"],
     "node": ["meshio"],
     "openfoam": ["openfoam"],
 }

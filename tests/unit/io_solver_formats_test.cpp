@@ -52,6 +52,7 @@ std::vector<Held> formats() {
           {"a.unv"},
           {"a.vol"},
           {"a.exo"},
+          {"a.cgns"},
           {"a.bdf", false},
           {"a.mfem", true, true, true, false},
           {"a.su2", true, false, false, false}};
