@@ -130,10 +130,36 @@ std::string_view way_out_of(std::string_view extension) {
   static constexpr std::string_view kOfCad =
       "; it describes shapes, without triangles: export it as STL, or `gmsh -2 IN -o OUT.stl` makes some";
   static constexpr std::string_view kOfScenes = "; Blender, MeshLab or assimp save it as .obj";
-  static constexpr Way kWays[] = {{".step", kOfCad},   {".stp", kOfCad},     {".iges", kOfCad},
-                                  {".igs", kOfCad},    {".brep", kOfCad},    {".geo", kOfCad},
-                                  {".dae", kOfScenes}, {".x3d", kOfScenes},  {".3ds", kOfScenes},
-                                  {".fbx", kOfScenes}, {".blend", kOfScenes}};
+  static constexpr std::string_view kOfParaView = "; ParaView saves it as .vtu",
+                                    kOfMeshio = "; `meshio convert IN OUT.vtu` reads it",
+                                    kOfFoam = "; give the case's folder",
+                                    kOfAscii = "; if it is STL, give the format .stl";
+  static constexpr Way kWays[] = {{".step", kOfCad},
+                                  {".stp", kOfCad},
+                                  {".iges", kOfCad},
+                                  {".igs", kOfCad},
+                                  {".brep", kOfCad},
+                                  {".geo", kOfCad},
+                                  {".dae", kOfScenes},
+                                  {".x3d", kOfScenes},
+                                  {".3ds", kOfScenes},
+                                  {".fbx", kOfScenes},
+                                  {".blend", kOfScenes},
+                                  {".dxf", kOfScenes},
+                                  {".lwo", kOfScenes},
+                                  {".x", kOfScenes},
+                                  {".ctm", kOfScenes},
+                                  {".case", kOfParaView},
+                                  {".cas", kOfParaView},
+                                  {".vtkhdf", kOfParaView},
+                                  {".ugrid", kOfMeshio},
+                                  {".mdpa", kOfMeshio},
+                                  {".f3grid", kOfMeshio},
+                                  {".tec", kOfMeshio},
+                                  {".foam", kOfFoam},
+                                  {".ast", kOfAscii},
+                                  {".gts", "; `gts2stl < IN > OUT.stl` converts it"},
+                                  {".scad", "; `openscad -o OUT.off IN` makes a surface of it"}};
   for (const Way& way : kWays)
     if (way.extension == extension) return way.text;
   return {};

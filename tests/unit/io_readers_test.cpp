@@ -479,6 +479,10 @@ TEST(Files, PathsThatAreNoFiles) {
   EXPECT_NE(reason("a.dae").find(
                 "cannot be read as a surface; Blender, MeshLab or assimp save it as .obj; the formats are"),
             std::string::npos);
+  EXPECT_NE(reason("a.case").find("; ParaView saves it as .vtu; the formats are"), std::string::npos);
+  EXPECT_NE(reason("a.ugrid").find("; `meshio convert IN OUT.vtu` reads it; the formats are"),
+            std::string::npos);
+  EXPECT_NE(reason("a.foam").find("; give the case's folder; the formats are"), std::string::npos);
   EXPECT_EQ(reason("a.xyz", ".off"), "read");
   EXPECT_EQ(reason("a.xyz", "OFF"), "read");
   EXPECT_THROW(static_cast<void>(read_volume(folder / "a.xyz", ".off")), FileError);
