@@ -11,7 +11,10 @@ namespace holdfast::io {
 /// only some are negative, the file is wrong and stays as it is.
 void turn_if_all_are_turned(MeshData& mesh, const std::string& remark);
 
-/// The same for formats in which programs build on VTK's order; FreeCAD writes .vtu that way.
+/// For formats in which programs follow VTK's order, or none: FreeCAD writes all tetrahedra the other way
+/// round, and legacy DOLFIN lists the corners of each by their numbers. If neighbours are oriented
+/// differently, and fit once the negative tetrahedra are reversed, the order of the corners says nothing, and
+/// these are reversed. A tangled mesh, whose neighbours fit as they are, stays.
 void turn_to_vtk(MeshData& mesh);
 
 /// Whether the volume of a tetrahedron is negative in plain arithmetic: no topology depends on it.

@@ -89,6 +89,33 @@ TEST_F(VtkLists, TetrahedraThatAreAllNegativeAreReversedAndTold) {
   }
 }
 
+TEST_F(VtkLists, TetrahedraWithoutAnOrientationGetOne) {
+  // Corners by their numbers, as legacy DOLFIN lists them.
+  Volume volume;
+  volume.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  volume.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  volume.regions = {0, 0};
+  std::swap(volume.vertices[0], volume.vertices[4]);
+  std::vector<Remark> remarks;
+  write_volume(folder_ / "a.vtk", volume);
+  EXPECT_EQ(read_volume(folder_ / "a.vtk", {}, &remarks).tetrahedra,
+            (std::vector<Tetrahedron>{{0, 2, 1, 3}, {1, 3, 2, 4}}));
+  volume.vertices[0] = {0.1, 0.1, 0.1};
+  volume.vertices[4] = {1, 1, 1};
+  volume.tetrahedra = {{0, 1, 2, 3}, {1, 3, 2, 4}};
+  write_volume(folder_ / "a.xdmf", volume);
+  EXPECT_EQ(read_volume(folder_ / "a.xdmf", {}, &remarks).tetrahedra,
+            (std::vector<Tetrahedron>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].message, "1 tetrahedron is oriented opposite to the others, and reversed");
+  // A vertex beyond the opposite face tangles a mesh: neighbours fit, and stay.
+  volume.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  volume.vertices[4] = {0, 0, 0};
+  write_volume(folder_ / "b.vtu", volume);
+  EXPECT_EQ(read_volume(folder_ / "b.vtu", {}, &remarks).tetrahedra, volume.tetrahedra);
+  EXPECT_TRUE(remarks.empty());
+}
+
 TEST_F(VtkLists, OtherEndingsOfXdmfAndVrml) {
   write_volume(folder_ / "a.xmf", sample_volume());
   EXPECT_EQ(read_volume(folder_ / "a.xmf").facets.size(), sample_volume().facets.size());
