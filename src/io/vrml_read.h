@@ -1,4 +1,4 @@
-// Reads VRML 1.0 and 2.0 (VRML97): the indexed face sets that the scene places.
+// Reads VRML 1.0 and 2.0 (VRML97), and X3D in XML: the indexed face sets that the scene places.
 #pragma once
 
 #include "io/mesh_data.h"

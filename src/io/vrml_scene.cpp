@@ -27,6 +27,11 @@ const VrmlField& VrmlNode::field(std::string_view field) const {
 }
 
 VrmlScene::VrmlScene(const Source& source) : source_(source), errors_(source) {
+  const std::size_t start = source.bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (start != std::string_view::npos && source.bytes[start] == '<') {
+    read_xml();
+    return;
+  }
   read_head();
   for (Token token = next(); token.kind != Token::Kind::end; token = next()) {
     if (token.kind != Token::Kind::word) fail(token, "expected a node, found " + in_quotes(token.text));

@@ -1,5 +1,5 @@
 // The nodes of a VRML file in versions 1.0 and 2.0 (ISO/IEC 14772-1, VRML97): nodes of any type, parsed by
-// their braces and fields.
+// their braces and fields. X3D in XML is read as the nodes of VRML97 that it stands for.
 #pragma once
 
 #include <deque>
@@ -12,7 +12,9 @@
 
 namespace holdfast::io {
 
+class XmlReader;
 struct VrmlNode;
+struct XmlTag;
 
 struct VrmlField {
   std::vector<double> numbers;
@@ -48,6 +50,11 @@ class VrmlScene {
   };
 
   void read_head();
+  /// The scene of an X3D file (vrml_x3d.cpp).
+  void read_xml();
+  VrmlNode* open_node(const XmlReader& xml, const XmlTag& tag, VrmlNode* around);
+  static void read_numbers(const XmlReader& xml, const XmlTag& tag, std::string_view text, VrmlField& field);
+  void close(VrmlNode& node);
   void skip_blanks();
   Token next();
   [[nodiscard]] Token peek();

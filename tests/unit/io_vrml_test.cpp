@@ -97,5 +97,66 @@ TEST_F(Vrml, TrapsAreRefused) {
   EXPECT_NE(error(chain).find("256 deep"), std::string::npos);
 }
 
+/// A scene of X3D.
+Surface x3d(const std::string& scene) {
+  const TemporaryFolder folder;
+  put(folder / "a.x3d",
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE X3D>\n<X3D version='3.3'><head><meta name='a'/></head>\n<Scene>" +
+          scene + "</Scene></X3D>");
+  return read_surface(folder / "a.x3d");
+}
+
+std::string x3d_error(const std::string& scene) {
+  return refusal_of([&] { return x3d(scene); });
+}
+
+const std::string kPoints = "<Coordinate point='0 0 0, 1 0 0, 1 1 0, 0 1 0'/>";
+
+TEST(X3d, SetsOfFacesOfEveryKind) {
+  const std::vector<Triangle> two{{0, 1, 2}, {0, 2, 3}};
+  for (const std::string& set :
+       {"<IndexedFaceSet coordIndex='0 1 2 -1, 0 2 3'>" + kPoints + "</IndexedFaceSet>",
+        "<IndexedTriangleSet index=\"0 1 2 0 2 3\">" + kPoints + "</IndexedTriangleSet>",
+        "<IndexedQuadSet index='0 1 2 3'>" + kPoints + "</IndexedQuadSet>",
+        "<QuadSet>" + kPoints + "</QuadSet>"}) {
+    const Surface s =
+        x3d("<Shape><Appearance><Material diffuseColor='1 1 1'/></Appearance>" + set + "</Shape>");
+    EXPECT_EQ(s.facets, two) << set;
+    EXPECT_EQ(s.vertices[2], (Point{1, 1, 0}));
+  }
+  EXPECT_EQ(
+      x3d("<Shape><TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>").facets.size(),
+      1U);
+  EXPECT_EQ(
+      x3d("<Shape><IndexedFaceSet ccw='false' coordIndex='0 1 2'>" + kPoints + "</IndexedFaceSet></Shape>")
+          .facets,
+      (std::vector<Triangle>{{2, 1, 0}}));
+}
+
+TEST(X3d, TransformsNamesUsesAndChoices) {
+  const std::string shape =
+      "<Shape DEF='leaf'><IndexedTriangleSet index='0 1 2'>" + kPoints + "</IndexedTriangleSet></Shape>";
+  const Surface s = x3d(
+      "<Transform DEF='moved' translation='0 0 5' scale='2 2 2'>" + shape +
+      "</Transform><Shape USE='leaf'/>"
+      "<Switch whichChoice='1'><Shape USE='leaf'/><CADPart><Shape USE='leaf'/></CADPart></Switch>"
+      "<LOD><Shape USE='leaf'/><Shape USE='leaf'/></LOD><Collision><Box containerField='proxy'/></Collision>"
+      "<Shape><Sphere radius='2'/></Shape>");
+  EXPECT_EQ(s.facets.size(), 4U);
+  EXPECT_EQ(s.vertices[1], (Point{2, 0, 5}));
+  ASSERT_EQ(s.remarks.size(), 1U);
+  EXPECT_EQ(s.remarks[0].message, "1 shape that is no set of faces is left out");
+}
+
+TEST(X3d, ErrorsNameTheLine) {
+  EXPECT_EQ(x3d_error("<Shape USE='none'/>"), "line 4: USE of 'none', which no DEF before it names");
+  EXPECT_EQ(x3d_error("<Shape></Group>"), "line 4: the element 'Group' ends, but is not open");
+  EXPECT_EQ(x3d_error("<Shape>\n<IndexedTriangleSet index='0 1 x'/></Shape>"),
+            "line 5: expected a number, found 'x'");
+  EXPECT_EQ(x3d_error("<Shape><IndexedTriangleSet index='0 1'>" + kPoints + "</IndexedTriangleSet></Shape>"),
+            "line 4: the corners of the last face are not whole");
+  EXPECT_NE(x3d_error("<Shape>").find("is truncated or no X3D file"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace holdfast
