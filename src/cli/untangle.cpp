@@ -176,7 +176,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "VOLUME", arguments->input,
-          "Tangled volume file (.vtu .pvtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol "
+          "Tangled volume file (.vtu .pvtu .pvd .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol "
           ".xdmf .med .exo .cgns .avs .node, "
           "or OpenFOAM's constant/polyMesh)")
       ->transform(or_standard_input)
