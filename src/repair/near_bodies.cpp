@@ -22,6 +22,7 @@ std::vector<Box> common_boxes(const State& state, std::span<const Index> facets,
     if (!is_new) at->second.extend(box);
   }
   std::vector<Box> boxes;
+  boxes.reserve(box_of.size());
   for (const auto& [body, box] : box_of) boxes.push_back(box);
   std::vector<Box> common;
   AabbTree(boxes).for_each_overlap(

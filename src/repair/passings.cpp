@@ -116,11 +116,12 @@ class PassingSides {
 
   /// All corners of f lie within the gap of the plane of g.
   [[nodiscard]] bool lies_in_plane_of(Index f, Index g) const {
-    const auto& [a, b, c] = state_.facets[g];
-    const Vector normal = cross(minus(at(b), at(a)), minus(at(c), at(a)));
+    const Triangle& t = state_.facets[g];
+    const Point& origin = at(t[0]);
+    const Vector normal = cross(minus(at(t[1]), origin), minus(at(t[2]), origin));
     const double most = gap_ * length(normal);
     return std::all_of(state_.facets[f].begin(), state_.facets[f].end(),
-                       [&](Index v) { return std::fabs(dot(minus(at(v), at(a)), normal)) <= most; });
+                       [&](Index v) { return std::fabs(dot(minus(at(v), origin), normal)) <= most; });
   }
 
   const State& state_;
