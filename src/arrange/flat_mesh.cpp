@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "numbers/random.h"
 #include "plane/swaps.h"
 
 namespace holdfast::arrange {
@@ -45,7 +46,7 @@ EdgeCode FlatMesh::locate(Vertex p, unsigned& zeros) const {
   for (;;) {
     zeros = 0;
     EdgeCode on = code(t, 0), out = kNoEdge;
-    turn = turn * 1664525u + 1013904223u;
+    turn = numbers::next_congruential(turn);
     const std::uint32_t first = (turn >> 24) % 3;
     for (std::uint32_t k = 0; k < 3 && out == kNoEdge; ++k) {
       const EdgeCode e = code(t, (first + k) % 3);
