@@ -62,7 +62,7 @@ BoxMesh delaunay_in_box(const Attempt& attempt) {
 
 void recover_by_flips(const Attempt& attempt, BoxMesh& box) {
   const auto tell = [&](double part) { attempt.monitor.poll(Stage::flips, part); };
-  FlipRecovery(box.mesh, attempt.input.table(), attempt.complex().facets, box.standing, attempt.seed)
+  FlipRecovery(box.mesh, {attempt.input.table(), attempt.complex().facets, box.standing}, attempt.seed)
       .run(tell);
 }
 
@@ -70,7 +70,7 @@ EnforceStats enforce_missing(const Attempt& attempt, BoxMesh& box) {
   const bool eliminate = attempt.options.stop_after != Stage::partition;
   Standing standing = box.standing;
   EnforceStats stats =
-      enforce(box.mesh, attempt.input.table(), attempt.complex().facets, standing, box.first_free,
+      enforce(box.mesh, {attempt.input.table(), attempt.complex().facets, standing}, box.first_free,
               {.seed = attempt.seed,
                .flips = attempt.options.flips,
                .eliminate = eliminate,

@@ -36,7 +36,7 @@ struct Classified {
     Standing standing = mark_present(mesh, table);
     const Options options;
     Monitor monitor(options);
-    enforce(mesh, table, surface.facets, standing, first_free, {.seed = 1}, monitor);
+    enforce(mesh, {table, surface.facets, standing}, first_free, {.seed = 1}, monitor);
     regions = find_regions(mesh, surface.facets);
   }
 

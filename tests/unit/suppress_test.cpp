@@ -227,7 +227,7 @@ Scene enforced(const std::vector<Point>& points, const std::vector<Triangle>& fa
   Standing standing = mark_present(s.mesh, table);
   const Options options;
   Monitor monitor(options);
-  enforce(s.mesh, table, facets, standing, s.first_free, {.seed = seed, .flips = false}, monitor);
+  enforce(s.mesh, {table, facets, standing}, s.first_free, {.seed = seed, .flips = false}, monitor);
   EXPECT_EQ(facet_faces(s.mesh).size(), facets.size());
   s.remember();
   return s;
