@@ -94,8 +94,8 @@ struct Surface {
   struct RegionSeed {
     Point where;
     int id;
-    double size = 0;        ///< longest edge of the region, or less, for field points (as Sizes::size); 0: no
-                            ///< limit
+    /// Longest edge of the region, or less, for field points (as Sizes::size); 0: no limit.
+    double size = 0;
     double max_volume = 0;  ///< largest volume of a tetrahedron of the region; 0: no limit
   };
   std::vector<RegionSeed> regions;

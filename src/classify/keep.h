@@ -38,8 +38,8 @@ struct Wanted {
   Keep keep = Keep::automatic;
   std::span<const Point> holes;
   std::span<const RegionSeed> seeds;
-  bool drop_outside = false;  ///< leave out elements that border on no kept region, instead of reporting a
-                              ///< defect
+  /// Leave out elements that border on no kept region, instead of reporting a defect.
+  bool drop_outside = false;
   /// For a pasted surface: the regions of the parts are kept with the parts' ids, except holes and regions to
   /// which `seeds` give other ids.
   const PartsOfComplex* parts = nullptr;

@@ -132,6 +132,7 @@ class Schedule {
     std::sort(all.begin(), all.end());
     return all;
   }
+
   bool enter(Inserter& inserter, const Slab& slab, const std::vector<Vertex>& points, Tet from) const {
     std::size_t tried = 0;
     for (std::size_t i = 0; i < points.size() && tried < kEntrances; ++i) {

@@ -170,6 +170,7 @@ class BallCutter {
     }
     return sector;
   }
+
   [[nodiscard]] bool is_cut(Tet t, int face, const Edge& link_edge) const {
     return mesh_.is_facet(face_code(t, face)) || std::find(fictitious_edges_.begin(), fictitious_edges_.end(),
                                                            ascending(link_edge)) != fictitious_edges_.end();
@@ -188,6 +189,7 @@ class BallCutter {
     if (above_[cut].vertex != kNone && height <= above_[cut].height) return;
     above_[cut] = {w, height};
   }
+
   void check_sectors() const {
     const std::size_t wanted = ends_ ? cuts_.size() : 2;
     bool right = sectors_.size() == wanted;

@@ -6,6 +6,7 @@
 
 #include "mesh/tet_mesh.h"
 #include "recover/pierce.h"
+
 namespace holdfast {
 
 /// A facet whose three sides are chains of mesh edges.

@@ -18,6 +18,7 @@ using ExactVector = std::array<Dyadic, 3>;
 // Besides the functions below, for exact vectors.
 using holdfast::cross;
 using holdfast::dot;
+
 ExactVector minus(const ExactPoint& a, const ExactPoint& b) {
   return {a.c[0] - b.c[0], a.c[1] - b.c[1], a.c[2] - b.c[2]};
 }
@@ -288,6 +289,7 @@ std::optional<Position> Kernel::along_direction(PointRef origin, double size) co
   }
   return step(longest);
 }
+
 Kernel kernel_of_ball(const TetMesh& mesh, Vertex v, std::span<const Tet> tets) {
   Kernel kernel(mesh);
   for (const Tet t : tets) {

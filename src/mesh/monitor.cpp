@@ -52,6 +52,7 @@ class FirstFailure {
 };
 
 }  // namespace
+
 Monitor::Monitor(const Limits& limits, const std::function<bool(const Progress&)>& progress)
     : limits_(limits),
       progress_(progress),

@@ -24,6 +24,7 @@ class FacetCavities {
   /// Completes a mesh in which some constraints are missing. It may add vertices, which are those from
   /// `first_free` on.
   using Finish = std::function<void(TetMesh& mesh, const Constraints& constraints, Vertex first_free)>;
+
   FacetCavities(TetMesh& mesh, std::uint64_t seed) : mesh_(mesh), random_(seed), piercing_(mesh, random_) {}
 
   /// Returns whether the facet is now a mesh face, with its bit set; if not, the mesh is unchanged. `tell` is

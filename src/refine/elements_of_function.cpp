@@ -12,8 +12,8 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kTetsACall =
-    4096;  ///< points are gathered from so many, because functions prefer to be asked about many at once
+/// Points are gathered from so many, because functions prefer to be asked about many at once.
+constexpr std::size_t kTetsACall = 4096;
 
 // The number of elements of edge 1 in a volume of 1 in a metric, relative to Euclidean space: the root of the
 // determinant. Computed from Cholesky's pivots, because the sum of products is pure rounding where sizes

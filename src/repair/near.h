@@ -33,8 +33,8 @@ struct Nearness {
   double t = 0;     ///< along the side
   Point foot{};     ///< the point below
   double size = 0;  ///< magnitude of the numbers behind the distance
-  double tilt =
-      0;  ///< error of the distance from a sliver, whose normal is uncertain because its area is small
+  /// Error of the distance from a sliver, whose normal is uncertain because its area is small.
+  double tilt = 0;
 
   /// Of the distance, whose error is some last bits of these.
   [[nodiscard]] double bound() const { return distance + size * 0x1p-49; }
