@@ -423,8 +423,8 @@ class Search {
 std::optional<Search> search_of(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces,
                                 const PolyhedronOptions& options) {
   const std::size_t most = std::min(options.most_vertices, kMostVertices);
-  if (faces.empty() || faces.size() > 2 * most)
-    return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4 faces
+  // Euler: a sphere of triangles on n vertices has 2 n - 4 of them.
+  if (faces.empty() || faces.size() > 2 * most) return std::nullopt;
   std::vector<Vertex> vertices = corners_of_all(faces);
   if (vertices.size() > most) return std::nullopt;
   return std::optional<Search>(std::in_place, mesh, faces, std::move(vertices), options);
