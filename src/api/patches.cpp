@@ -11,6 +11,7 @@
 #include "mesh/disjoint_sets.h"
 #include "numbers/elementary.h"
 #include "numbers/sorted.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 namespace {
@@ -24,17 +25,10 @@ struct SideOfFacet {
   Segment ends{};        // the facet's own vertices
 };
 
-using Normal = std::array<double, 3>;
-
-Normal minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double dot(const Normal& a, const Normal& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// The unit normal, or nullopt if it cannot be computed in doubles.
-std::optional<Normal> normal_of(const Surface& surface, const Triangle& t) {
-  const Normal u = minus(surface.vertices[t[1]], surface.vertices[t[0]]),
-               v = minus(surface.vertices[t[2]], surface.vertices[t[0]]);
-  Normal n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+std::optional<Vector> normal_of(const Surface& surface, const Triangle& t) {
+  const Point& first = surface.vertices[t[0]];
+  Vector n = cross(surface.vertices[t[1]] - first, surface.vertices[t[2]] - first);
   const double length = numbers::hypot(n[0], n[1], n[2]);
   if (!(length > 0) || length - length != 0) return std::nullopt;
   for (double& x : n) x /= length;
@@ -98,7 +92,7 @@ class Patches {
   const Surface& surface_;
   double least_;  // cosine of the largest angle
   DisjointSets sets_;
-  std::vector<std::optional<Normal>> normals_;
+  std::vector<std::optional<Vector>> normals_;
   std::map<Index, Neighbour> neighbour_;  // of facets without a normal: across the longest edge
 };
 

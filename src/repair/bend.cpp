@@ -10,6 +10,7 @@
 
 #include "numbers/sorted.h"
 #include "repair/bent.h"
+#include "repair/derived_facets.h"
 #include "repair/near.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
@@ -273,8 +274,7 @@ class Bending {
   Work& work_;
 };
 
-// --- The result
-// ---------------------------------------------------------------------------------------------
+// --- the result
 
 void deliver_facets(const BentSurface& bent, State& state) {
   std::vector<std::array<Index, 2>> parts;  // {first origin, in the bent surface}
@@ -285,21 +285,12 @@ void deliver_facets(const BentSurface& bent, State& state) {
   }
   std::sort(parts.begin(), parts.end());
   auto part = parts.begin();
-  std::vector<Triangle> facets;
-  Parents parents;
+  DerivedFacets facets(state);
   std::vector<std::uint8_t> known;
   std::vector<Index> sheet;
-  std::vector<Index> list;
   const auto take = [&](const Triangle& t, std::span<const Index> origins) {
     const Index f = origins[0];
-    facets.push_back(t);
-    list.clear();
-    for (const Index origin : origins) {
-      const auto of = state.facet_parents.of(origin);
-      list.insert(list.end(), of.begin(), of.end());
-    }
-    sort_unique(list);
-    parents.add(list);
+    facets.add(t, origins);
     const bool same = origins.size() == 1 && t == state.facets[f];
     if (!state.known.empty()) known.push_back(same ? state.known[f] : 0);
     if (!state.sheet.empty()) sheet.push_back(same ? state.sheet[f] : no_index);
@@ -313,8 +304,7 @@ void deliver_facets(const BentSurface& bent, State& state) {
     for (; part != parts.end() && (*part)[0] == f; ++part)
       take(bent.facet((*part)[1]).corners, bent.facet((*part)[1]).origins);
   }
-  state.facets = std::move(facets);
-  state.facet_parents = std::move(parents);
+  std::move(facets).move_to(state);
   state.known = std::move(known);
   state.sheet = std::move(sheet);
 }

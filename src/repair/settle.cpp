@@ -75,7 +75,7 @@ class Settling {
                          [&](const AabbTree::Item& item) {
                            const Index w = vertices_[item.id];
                            if (w <= v || is_gone[item.id] != 0) return;
-                           const double distance = length(minus(at(v), at(w)));
+                           const double distance = length(at(v) - at(w));
                            const bool may_move = w >= state_.input_vertices || how_.moves_input;
                            if (!may_move || !(distance <= gap_)) return;
                            is_gone[item.id] = 1;
@@ -183,7 +183,7 @@ class Settling {
             const auto found = points_.find(cell(p, {x, y, z}));
             if (found == points_.end()) continue;
             for (const Point& q : found->second)
-              if (length(minus(p, q)) <= gap_) return true;
+              if (length(p - q) <= gap_) return true;
           }
       return false;
     }
