@@ -1,5 +1,5 @@
 // Better elements without field points: exchanges, relocation and reconnection on the worst of them first
-// (paper §8).
+// (paper §6.4, §8).
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// The ways to remove a bad element, from the cheapest to the most expensive (paper §8), for meshes judged by
-// Q.
+// The ways to remove a bad element, from the cheapest to the most expensive (paper §6.4), for meshes judged
+// by Q.
 #pragma once
 
 #include <cstddef>
