@@ -54,7 +54,7 @@ struct Division {
   [[nodiscard]] std::vector<Tet> tets(const TetMesh& mesh) const;
 };
 
-/// The Delaunay tetrahedra of the vertices and the corners of a box around them (paper §3).
+/// The Delaunay tetrahedra of the vertices and the corners of a box around them (paper §5.1).
 [[nodiscard]] BoxMesh delaunay_in_box(const Attempt& attempt);
 
 /// Recovers facets and segments by flips alone (paper §4). Some may still be missing.

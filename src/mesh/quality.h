@@ -1,4 +1,4 @@
-// Quality of tetrahedra as the paper's §8 measures it.
+// Quality of tetrahedra as the paper defines (§6.4) and measures it (§8).
 //
 // Thin elements are what matters, so lengths, areas and volumes are right to a few digits however much their
 // terms cancel (careful.h).
