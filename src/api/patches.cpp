@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -15,8 +16,6 @@
 
 namespace holdfast {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct SideOfFacet {
   Segment edge;  // ascending places
@@ -58,7 +57,9 @@ std::vector<SideOfFacet> sides_of(const Surface& surface, const std::vector<Inde
 class Patches {
  public:
   Patches(const Surface& surface, double degrees, const std::vector<Index>& facets)
-      : surface_(surface), least_(numbers::cos(degrees * kPi / 180)), sets_(surface.facets.size()) {
+      : surface_(surface),
+        least_(numbers::cos(degrees * std::numbers::pi / 180)),
+        sets_(surface.facets.size()) {
     const std::vector<SideOfFacet> sides = sides_of(surface, facets);  // this also checks the indices
     normals_.resize(surface.facets.size());
     for (const Index f : facets) normals_[f] = normal_of(surface, surface.facets[f]);

@@ -195,7 +195,7 @@ void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const p
     points.insert(points.end(), trace.ends.begin(), trace.ends.end());
   sort_unique(points);
   std::erase_if(points, [&](Index p) { return all.has(p); });
-  constexpr std::size_t kFew = 16;
+  constexpr std::size_t kFew = 16;  // for fewer, an order along a curve does not pay
   if (points.size() > kFew) points = in_order(given, points);
   const std::vector<std::array<Index, 2>> sides = sides_of_points(given);
   for (std::size_t k = 0; k < points.size(); ++k) {

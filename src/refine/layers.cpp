@@ -77,7 +77,7 @@ class EdgeParter {
   }
 
  private:
-  static constexpr std::size_t kMostShell = 10'000;
+  static constexpr std::size_t kMostShell = 10'000;  // so many that hardly any edge is left out
 
   [[nodiscard]] bool is_of_region(Tet t) const {
     return mesh_.alive(t) && !mesh_.is_ghost(t) && volume_.region_of[t] == region_;

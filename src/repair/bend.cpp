@@ -49,7 +49,7 @@ bool is_near(const State& state, Index v, const Triangle& facet, double distance
 std::vector<std::vector<Index>> list_near(const State& state, const Trouble& trouble,
                                           std::span<const Index> vertices, double gap, Work& work,
                                           const Step& step) {
-  constexpr double kRoom = 4;
+  constexpr double kRoom = 4;       // gaps: bending may bring vertices nearer by some
   constexpr std::size_t kWork = 4;  // relative to finding a pair
   std::vector<Box> boxes;
   for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, 0));

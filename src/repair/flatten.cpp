@@ -295,7 +295,7 @@ Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sid
 }
 
 Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step) {
-  constexpr int kPasses = 4;
+  constexpr int kPasses = 4;  // flattening one cluster may bring others near
   Flattened all;
   std::vector<Index> some;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -18,7 +18,7 @@ namespace {
 using Local = std::uint8_t;
 using LocalFace = std::array<Local, 3>;
 
-constexpr std::size_t kMostVertices = 31;
+constexpr std::size_t kMostVertices = 31;  // a set of them is a mask of 32 bits
 
 // Numbers the sets of four: a < b < c < d has the binomial sum (a 1) + (b 2) + (c 3) + (d 4). Without d, it
 // numbers the sets of three.
