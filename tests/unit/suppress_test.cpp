@@ -9,10 +9,10 @@
 
 #include "enforce/enforce.h"
 #include "hard_surfaces.h"
-#include "suppress/collapse.h"
 #include "suppress/degree.h"
 #include "suppress/needed.h"
 #include "suppress/refill.h"
+#include "suppress/remove_or_recentre.h"
 #include "suppress/shake.h"
 #include "unit/suppress_scenes.h"
 
