@@ -42,10 +42,7 @@ std::vector<double> densities(const SizeFunction& sizes, std::span<const Point> 
 }
 
 void add_centre(const VolumeData& volume, Tet t, std::vector<Point>& points) {
-  Point centre{};
-  for (const Vertex v : volume.mesh.corners(t))
-    for (std::size_t k = 0; k < 3; ++k) centre[k] += 0.25 * volume.mesh.position(v)[k];
-  points.push_back(centre);
+  points.push_back(centroid(volume.mesh, t));
 }
 
 void add_corners_and_middles(const VolumeData& volume, Tet t, std::vector<Point>& points) {

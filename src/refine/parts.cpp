@@ -12,8 +12,7 @@ namespace holdfast {
 namespace {
 
 constexpr Flags kConstraintBits = kFacetBits | kSegmentBits;
-constexpr std::size_t kSlotsAtOnce = std::size_t{1}
-                                     << 18;  // some milliseconds' work for the system: new pages
+constexpr std::size_t kSlotsAtOnce = std::size_t{1} << 18;  // new pages: milliseconds of the system's work
 
 }  // namespace
 
@@ -262,8 +261,8 @@ class PartJoiner {
     return seams;
   }
 
-  /// For one part at a time: handles remaining slots, and vertices that may be in other parts as well.
-  void tidy() {
+  /// For one part at a time: removes slots that are left, and writes vertices that other parts may have, too.
+  void write_shared() {
     for (std::size_t k = tets_.size(); k < part_.slots_.size(); ++k)
       MeshAssembly(whole_.mesh).remove_tet(part_.slots_[k]);
     for (Vertex v = 0; v < part_.first_free; ++v) {
@@ -423,7 +422,7 @@ void Parts::join(const Threads& threads) {
     joiners[k].write();
   });
   for (PartJoiner& joiner : joiners) {
-    joiner.tidy();
+    joiner.write_shared();
     threads.poll();
   }
   link_seams(whole_.mesh, joiners);

@@ -18,6 +18,13 @@ inline constexpr double kLevel = 1.3;  ///< a size over the mean of those round 
 inline constexpr double kLongestPart = 0.65;  ///< of an edge that is to be split: the size over its length
 inline constexpr double kNearest = 0.7;       ///< least distance of a new point from others
 inline constexpr double kLeastHeight = 0.4;   ///< least height of a new point over a facet
+/// Half of the height of a regular tetrahedron: new edges get the mean of the sizes at their ends.
+inline constexpr double kHalfHeight = 0.4;
+/// A face whose circle has a larger squared radius, in squared lengths, is large: its point is put over its
+/// middle; 0.33 is regular.
+inline constexpr double kLargestRound = 0.6;
+inline constexpr double kHeightOverLarge = 0.75;   ///< of a point over the middle of a large face, in lengths
+inline constexpr double kLeastSphereHeight = 0.3;  ///< of a sphere's centre, in heights of the point: no room
 /// The thinnest wall that gets points in its middle, in heights over a large facet.
 inline constexpr double kThinnestWall = 0.6;
 /// Tetrahedra that a function of sizes is asked for at a time.
