@@ -92,8 +92,7 @@ Division divide(const Attempt& attempt, BoxMesh& box) {
   if (parts != nullptr) seeds.resize(parts->seeds);
   std::erase_if(seeds, is_bound_alone);
   const Wanted wanted{options.keep, options.holes, seeds, options.drop_outside, parts};
-  division.kept = choose_regions(box.mesh, division.regions, attempt.complex(), attempt.input.table(), wanted,
-                                 box.scale, attempt.input.names());
+  division.kept = choose_regions(box.mesh, division.regions, attempt.named_complex(), wanted, box.scale);
   return division;
 }
 
@@ -105,9 +104,8 @@ void report_choice(const Attempt& attempt, BoxMesh& box, const Division& divisio
     result.report.turned_facets = kept.turned;
     result.warnings.push_back(warn_of_turned(attempt.complex(), kept.turned));
   }
-  for (Warning& warning :
-       find_open_interfaces(box.mesh, division.regions, kept, attempt.complex(), attempt.input.table(),
-                            attempt.input.names(), [&] { attempt.monitor.poll(Stage::classify, 1); }))
+  for (Warning& warning : find_open_interfaces(box.mesh, division.regions, kept, attempt.named_complex(),
+                                               [&] { attempt.monitor.poll(Stage::classify, 1); }))
     result.warnings.push_back(std::move(warning));
 }
 

@@ -27,6 +27,7 @@ struct Attempt {
   const FillAnew* fill_anew;  ///< null: the optimisation fills no polyhedra again
 
   [[nodiscard]] const Complex& complex() const { return input.complex(); }
+  [[nodiscard]] NamedComplex named_complex() const { return {input.complex(), input.table(), input.names()}; }
   [[nodiscard]] Stage last_stage() const { return options.stop_after.value_or(Stage::optimise); }
 };
 

@@ -42,7 +42,7 @@ struct Classified {
 
   [[nodiscard]] Kept choose(const Options& options, int scale = 0) const {
     const Wanted wanted{options.keep, options.holes, options.regions, options.drop_outside};
-    return choose_regions(mesh, regions, surface.view(), table, wanted, scale);
+    return choose_regions(mesh, regions, {surface.view(), table}, wanted, scale);
   }
   [[nodiscard]] Kept choose(Keep keep) const {
     Options options;
