@@ -32,7 +32,7 @@ bool holds(const Box& box, const Point& p) {
   return true;
 }
 
-// --- 1. What is near --------------------------------------------------------------------------------------
+// --- 1. What is near
 
 bool is_near(const State& state, Index v, const Triangle& facet, double distance) {
   const auto at = [&](Index w) -> const Point& { return state.vertices[w]; };
@@ -119,7 +119,6 @@ void begin(const State& state, const Trouble& trouble, std::span<const Index> ve
 }
 
 // --- 2. and 3. Sides and facets
-// -----------------------------------------------------------------------------
 
 /// One side at a time is led through one vertex, in all facets that have the side: (a b x) becomes (a p x)
 /// and (p b x), and vanishes if x is p. So the boundary of the facets stays the same, and closed surfaces

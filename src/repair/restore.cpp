@@ -252,16 +252,10 @@ class Restoring {
       return;
     Change star{v, {}, {}, {}, length(before_[v] - at(w)), 0};
     star.bent = star.distance * (1 + 0x1p-48);
-    std::vector<Triangle> facets;
+    const std::vector<Triangle> facets = take_star(w, near_facets, star);
     std::vector<Index> ends;
-    for (const Index f : near_facets) {
-      if (!has(f, w)) continue;
-      star.facets.push_back(f);
-      facets.push_back(state_.facets[f]);
-      std::replace(facets.back().begin(), facets.back().end(), w, v);
-      for (const Index x : facets.back())
-        if (x != v) ends.push_back(x);
-    }
+    for (const Triangle& t : facets)
+      std::copy_if(t.begin(), t.end(), std::back_inserter(ends), [v](Index x) { return x != v; });
     sort_unique(ends);
     const auto place = [&](Index x) { return x == v ? before_[v] : at(x); };
     const auto add = [&](const Nearness& near, auto&& put) {
@@ -287,6 +281,18 @@ class Restoring {
             if (has_side) add_halves(w, {v, x}, u, from, change);
             return has_side;
           });
+  }
+
+  /// Lists the facets at w in the change, and returns them with the vertex of the change instead of w.
+  std::vector<Triangle> take_star(Index w, std::span<const Index> near_facets, Change& star) const {
+    std::vector<Triangle> facets;
+    for (const Index f : near_facets) {
+      if (!has(f, w)) continue;
+      star.facets.push_back(f);
+      facets.push_back(state_.facets[f]);
+      std::replace(facets.back().begin(), facets.back().end(), w, star.vertex);
+    }
+    return facets;
   }
 
   /// The corner of these facets at a place.

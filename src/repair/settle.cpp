@@ -59,7 +59,7 @@ class Settling {
 
   [[nodiscard]] bool is_finite(Index v) const { return holdfast::is_finite(at(v)); }
 
-  // --- 1. Vertices ------------------------------------------------------------------------------------
+  // --- 1. Vertices
 
   double merge_vertices() {
     std::vector<Box> boxes;
@@ -109,7 +109,7 @@ class Settling {
         state_.vertices[u] = at(found->second);
   }
 
-  // --- Sides that pass each other ---------------------------------------------------------------------
+  // --- Sides that pass each other
 
   [[nodiscard]] std::vector<Side> passing_sides() const {
     std::vector<Side> sides;
