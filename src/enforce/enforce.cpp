@@ -32,8 +32,8 @@ std::vector<Index> missing_in_order(LayingOrder order, const std::vector<std::ui
 
 class Enforcement {
  public:
-  Enforcement(TetMesh& mesh, const Constraints& constraints, Vertex first_free, const EnforceOptions& options,
-              Monitor& monitor)
+  Enforcement(TetMesh& mesh, const ConstraintSet& constraints, Vertex first_free,
+              const EnforceOptions& options, Monitor& monitor)
       : mesh_(mesh),
         facets_(constraints.facets),
         standing_(constraints.standing),
@@ -94,7 +94,7 @@ class Enforcement {
   }
 
   bool facet_by_cavities(Index f) {
-    const auto finish = [this](TetMesh& cavity, const Constraints& its_constraints, Vertex its_first_free) {
+    const auto finish = [this](TetMesh& cavity, const ConstraintSet& its_constraints, Vertex its_first_free) {
       finish_cavity(cavity, its_constraints, its_first_free);
     };
     if (!recover_by_cavities(mesh_, cavities_, facets_[f], steiner_, tell_, finish)) return false;
@@ -102,7 +102,7 @@ class Enforcement {
     return true;
   }
 
-  void finish_cavity(TetMesh& cavity, const Constraints& constraints, Vertex first_free) {
+  void finish_cavity(TetMesh& cavity, const ConstraintSet& constraints, Vertex first_free) {
     const EnforceStats inside =
         enforce(cavity, constraints, first_free, {.seed = random_(), .cavities = false}, monitor_);
     stats_.segment_points += inside.segment_points;
@@ -145,7 +145,7 @@ class Enforcement {
 
 }  // namespace
 
-EnforceStats enforce(TetMesh& mesh, const Constraints& constraints, Vertex first_free,
+EnforceStats enforce(TetMesh& mesh, const ConstraintSet& constraints, Vertex first_free,
                      const EnforceOptions& options, Monitor& monitor) {
   return Enforcement(mesh, constraints, first_free, options, monitor).run();
 }

@@ -33,6 +33,6 @@ struct EnforceStats {
 ///
 /// All constraints stand afterwards. Vertices 0 .. first_free-1 are the input's and the box's. In exact
 /// arithmetic this cannot fail on a valid complex. Throws Interrupted through the monitor.
-EnforceStats enforce(TetMesh& mesh, const Constraints& constraints, Vertex first_free,
+EnforceStats enforce(TetMesh& mesh, const ConstraintSet& constraints, Vertex first_free,
                      const EnforceOptions& options, Monitor& monitor);
 }  // namespace holdfast

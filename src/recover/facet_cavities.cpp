@@ -81,7 +81,7 @@ class Cavity {
     const auto first_free = static_cast<Vertex>(mesh.vertex_count());
     tell();
     Standing standing = mark_present(mesh, table);
-    const Constraints constraints{table, local.facets, standing};
+    const ConstraintSet constraints{table, local.facets, standing};
     FlipRecovery(mesh, constraints, seed).run([&](double) { tell(); }, tuning::kCavityPasses);
     const auto all_stands = [&] { return standing.missing_facets() + standing.missing_segments() == 0; };
     if (!all_stands() && finish) finish(mesh, constraints, first_free);

@@ -23,7 +23,7 @@ class FacetCavities {
  public:
   /// Completes a mesh in which some constraints are missing. It may add vertices, which are those from
   /// `first_free` on.
-  using Finish = std::function<void(TetMesh& mesh, const Constraints& constraints, Vertex first_free)>;
+  using Finish = std::function<void(TetMesh& mesh, const ConstraintSet& constraints, Vertex first_free)>;
 
   FacetCavities(TetMesh& mesh, std::uint64_t seed) : mesh_(mesh), random_(seed), piercing_(mesh, random_) {}
 

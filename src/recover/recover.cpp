@@ -10,7 +10,7 @@
 #include "recover/tuning.h"
 
 namespace holdfast {
-FlipRecovery::FlipRecovery(TetMesh& mesh, const Constraints& constraints, std::uint64_t seed)
+FlipRecovery::FlipRecovery(TetMesh& mesh, const ConstraintSet& constraints, std::uint64_t seed)
     : mesh_(mesh),
       table_(constraints.table),
       facets_(constraints.facets),

@@ -27,7 +27,7 @@ struct FlipStats {
 /// possibly others.
 class FlipRecovery {
  public:
-  FlipRecovery(TetMesh& mesh, const Constraints& constraints, std::uint64_t seed);
+  FlipRecovery(TetMesh& mesh, const ConstraintSet& constraints, std::uint64_t seed);
 
   /// Called from time to time in long runs, with the part that is done; it may throw.
   using Tell = std::function<void(double)>;

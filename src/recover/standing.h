@@ -20,7 +20,7 @@ struct Standing {
 };
 
 /// What a mesh has to conform to, and what of it stands. The references must outlive it.
-struct Constraints {
+struct ConstraintSet {
   const SegmentTable& table;
   std::span<const Triangle> facets;
   Standing& standing;
