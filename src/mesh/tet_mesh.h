@@ -128,7 +128,6 @@ class TetMesh {
 
   /// Number of vertices whose position doubles cannot represent.
   [[nodiscard]] std::size_t exact_vertex_count() const { return exact_in_use_; }
-  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   friend class MeshEditor;
