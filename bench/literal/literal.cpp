@@ -37,7 +37,7 @@ class Partitioned {
     first_free = static_cast<Vertex>(mesh.vertex_count());
     if (!build_delaunay(mesh, {how.seed, 1}, nullptr)) throw std::logic_error("the box has no tetrahedra");
     standing_ = mark_present(mesh, table_);
-    if (how.flips) FlipRecovery(mesh, table_, surface.facets, standing_, how.seed).run([](double) {});
+    if (how.flips) FlipRecovery(mesh, {table_, surface.facets, standing_}, how.seed).run([](double) {});
     told.facets = surface.facets.size();
     told.segments = table_.segments.size();
     told.missing_facets = standing_.missing_facets();

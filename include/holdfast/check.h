@@ -50,7 +50,7 @@ struct CheckResult {
 /// What a check accepts.
 struct CheckOptions : Limits {
   bool outside_dropped = false;  ///< input facets outside every tetrahedron are accepted
-  bool box = false;              ///< the mesh may extend to an enclosing box (--keep box)
+  bool box = false;              ///< the mesh may extend to an enclosing box, as with Keep::box
   ProgressFunction progress = {};
 };
 

@@ -20,11 +20,12 @@ enum class CureKind {
 
 struct Cure {
   CureKind kind;
-  std::size_t count = 0;  ///< of vertices to join, of defects, of holes; of parts that pass through each
-                          ///< other; of triangles and edges that lie near another body
-  double distance = 0;   ///< weld: the widest gap to close; join: the largest distance of what nearly touches
-  double tolerance = 0;  ///< weld, join: the smallest tolerance tried that closes all of these, to one
-                         ///< significant digit
+  /// Number of vertices to join, of defects, of holes; of parts that pass through each other; of triangles
+  /// and edges that lie near another body.
+  std::size_t count = 0;
+  double distance = 0;  ///< weld: the widest gap to close; join: the largest distance of what nearly touches
+  /// weld, join: the smallest tolerance tried that closes all of these, to one significant digit.
+  double tolerance = 0;
   std::size_t sides = 0;  ///< fill_holes: of the longest border
   std::size_t left = 0;   ///< fill_holes: borders that stay open because a filling would meet the surface
 };

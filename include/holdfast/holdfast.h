@@ -181,8 +181,8 @@ struct Report {
     struct Limiting {
       Index facet;              ///< of the complex
       double wanted, bearable;  ///< lengths of edges at `place`, where they differ most
-      double volume;            ///< share of the whole, 0 to 1, where this facet limits sizes more than
-                                ///< others do
+      /// Share of the whole, 0 to 1, where this facet limits sizes more than others do.
+      double volume;
       Point place;
     };
     /// The share of the volume, 0 to 1, where nearby facets bear only elements larger than wanted (see

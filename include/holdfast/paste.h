@@ -97,12 +97,12 @@ struct PastedVolumes {
   /// volume by volume, those that stay, then their replacements. Facets: those of the boundaries, and inner
   /// ones that the volumes list.
   Volume volume;
-  std::vector<std::int64_t> origin;  ///< by tetrahedron: its number through all volumes in turn; -1: a new
-                                     ///< one
-  std::size_t replaced = 0;          ///< tetrahedra of the volumes that were replaced
-  PasteResult boundary;              ///< of the volumes' boundaries; counts vertices on the boundaries in
-                                     ///< turn
-  std::string message;               ///< one sentence when the outcome is not done
+  /// By tetrahedron: its number through all volumes in turn; -1: a new one.
+  std::vector<std::int64_t> origin;
+  std::size_t replaced = 0;  ///< tetrahedra of the volumes that were replaced
+  /// Of the volumes' boundaries; counts vertices on the boundaries in turn.
+  PasteResult boundary;
+  std::string message;  ///< one sentence when the outcome is not done
 };
 
 /// Pastes volumes together. Their boundaries are pasted as surfaces, and the tetrahedra at triangles that

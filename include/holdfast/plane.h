@@ -105,15 +105,15 @@ struct PlaneReport {
   std::size_t joined = 0;  ///< of these, those made with the reflex vertex nearest to a side
   std::size_t links = 0;   ///< between parts of an outline
   std::size_t triangles = 0, regions = 0;
-  std::size_t field_points = 0;       ///< added by refinement, on no segment
-  std::size_t segment_points = 0;     ///< added by refinement, on segments
-  std::size_t small_angles = 0;       ///< triangles below the bound at small angles of the input, or opposite
-                                      ///< them
-  std::size_t small_angles_left = 0;  ///< other triangles below the bound: at kept segments, or after
-                                      ///< `max_points`
-  std::size_t large_left = 0;         ///< triangles above the limits of size, for the same reasons
-  bool capped = false;                ///< refinement stopped at `max_points`
-  double least_angle = 0;             ///< of all triangles, in degrees, computed in doubles
+  std::size_t field_points = 0;    ///< added by refinement, on no segment
+  std::size_t segment_points = 0;  ///< added by refinement, on segments
+  /// Triangles below the bound at small angles of the input, or opposite them.
+  std::size_t small_angles = 0;
+  /// Other triangles below the bound: at kept segments, or after `max_points`.
+  std::size_t small_angles_left = 0;
+  std::size_t large_left = 0;             ///< triangles above the limits of size, for the same reasons
+  bool capped = false;                    ///< refinement stopped at `max_points`
+  double least_angle = 0;                 ///< of all triangles, in degrees, computed in doubles
   std::map<std::string, double> seconds;  ///< by stage, and "total"
 };
 
@@ -151,8 +151,8 @@ struct PlaneResult {
 
 /// Outlines in planes in space: polygons, or facets of polygons and holes, of a surface's file.
 struct PlanesInSpace {
-  std::vector<Point> points;  ///< of the file; empty for a file of two dimensions, whose one plane is the
-                              ///< file itself
+  /// The points of the file; empty for a file of two dimensions, whose one plane is the file itself.
+  std::vector<Point> points;
   struct Part {
     Plane plane;                 ///< as seen along an axis; no two of its points coincide in this projection
     std::vector<Index> numbers;  ///< of the plane's points in the file

@@ -28,10 +28,10 @@ struct CurveOptions : Limits {
 };
 
 struct CurveReport {
-  std::size_t on_facets = 0;     ///< nodes on edges of facets
-  std::size_t moved = 0;         ///< of these, those that now lie on the smooth surface
-  std::size_t beyond = 0;        ///< of these, those whose edge is farther from that surface than the
-                                 ///< tolerance
+  std::size_t on_facets = 0;  ///< nodes on edges of facets
+  std::size_t moved = 0;      ///< of these, those that now lie on the smooth surface
+  /// Of these, those whose edge is farther from that surface than the tolerance.
+  std::size_t beyond = 0;
   std::size_t straightened = 0;  ///< those that stay straight because an element would not be positive
   std::size_t not_positive = 0;  ///< tetrahedra not proven positive although all their edges are straight
   double farthest = 0;           ///< the largest distance that a node moved

@@ -94,8 +94,8 @@ struct Surface {
   struct RegionSeed {
     Point where;
     int id;
-    double size = 0;        ///< longest edge of the region, or less, for field points (as Sizes::size); 0: no
-                            ///< limit
+    /// Longest edge of the region, or less, for field points (as Sizes::size); 0: no limit.
+    double size = 0;
     double max_volume = 0;  ///< largest volume of a tetrahedron of the region; 0: no limit
   };
   std::vector<RegionSeed> regions;
@@ -116,8 +116,8 @@ struct Surface {
 /// elements that share an edge share its node. Either all edges of the volume have a node, or none.
 struct MidNodes {
   std::vector<Point> points;
-  std::vector<std::array<Index, 6>>
-      tetrahedra;  ///< of edges 01 12 02 03 13 23, one per tetrahedron (VTK's order)
+  /// Of edges 01 12 02 03 13 23, one per tetrahedron (VTK's order).
+  std::vector<std::array<Index, 6>> tetrahedra;
   std::vector<std::array<Index, 3>> facets;  ///< of edges 01 12 02, one per facet
   std::vector<Index> segments;               ///< one per segment
 

@@ -31,9 +31,9 @@ struct UntangleProgress {
 
 struct UntangleOptions : Limits {
   std::vector<Index> fixed;  ///< vertices to keep besides those of the boundary, facets and segments
-  bool refill = true;        ///< empties and refills cavities that nothing else untangles; may add and remove
-                             ///< points
-  std::uint64_t seed = 1;    ///< of the random orders when refilling
+  /// Empties and refills cavities that nothing else untangles; may add and remove points.
+  bool refill = true;
+  std::uint64_t seed = 1;  ///< of the random orders when refilling
   /// Improves elements once all are positive, also if nothing was tangled. Moves vertices inside, exchanges
   /// tetrahedra, adds and removes vertices. Needs `refill`.
   bool improve = false;

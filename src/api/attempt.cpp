@@ -9,6 +9,20 @@
 
 namespace holdfast {
 
+namespace {
+
+// Finds the regions and chooses among them, and reports the choice if nothing speaks against it.
+Division classify(const Attempt& attempt, BoxMesh& box, Result& result) {
+  Division division = divide(attempt, box);
+  PartsOfComplex* const parts = attempt.input.parts();
+  if (parts != nullptr) parts->overlaps = division.kept.overlaps;
+  const bool is_refused = !division.kept.defects.empty() || (parts != nullptr && parts->refuses());
+  if (!is_refused) report_choice(attempt, box, division, result);
+  return division;
+}
+
+}  // namespace
+
 std::optional<Recovered> recover(const Attempt& attempt, Result& result) {
   Report& report = result.report;
   Input& input = attempt.input;
@@ -31,14 +45,7 @@ std::optional<Recovered> recover(const Attempt& attempt, Result& result) {
   report.segment_points += added.segment_points;
   report.facet_points += added.facet_points;
 
-  Division division = course.run(CallStep::classify, [&] {
-    Division found = divide(attempt, box);
-    PartsOfComplex* const parts = input.parts();
-    if (parts != nullptr) parts->overlaps = found.kept.overlaps;
-    const bool is_chosen = found.kept.defects.empty() && !(parts != nullptr && parts->refuses());
-    if (is_chosen) report_choice(attempt, box, found, result);
-    return found;
-  });
+  Division division = course.run(CallStep::classify, [&] { return classify(attempt, box, result); });
   if (input.parts() != nullptr && input.parts()->refuses()) {
     result.outcome = Outcome::invalid_input;
     result.message = overlap_message(*input.parts());

@@ -20,8 +20,8 @@ struct Recovered {
 /// outcome `done` and the report so far. Returns nullopt if the complex is refused.
 [[nodiscard]] std::optional<Recovered> recover(const Attempt& attempt, Result& result);
 
-/// The second half: points for the sizes, better elements (paper §8), and the delivered mesh. Returns the
-/// worst Q of the same attempt without field points, or 0 if it was not computed.
+/// The second half: points for the sizes, better elements (paper §6.4, §9), and the delivered mesh. Returns
+/// the worst Q of the same attempt without field points, or 0 if it was not computed.
 double fill(const Attempt& attempt, Recovered& recovered, Result& result);
 
 /// Both halves.

@@ -62,7 +62,7 @@ BoxMesh delaunay_in_box(const Attempt& attempt) {
 
 void recover_by_flips(const Attempt& attempt, BoxMesh& box) {
   const auto tell = [&](double part) { attempt.monitor.poll(Stage::flips, part); };
-  FlipRecovery(box.mesh, attempt.input.table(), attempt.complex().facets, box.standing, attempt.seed)
+  FlipRecovery(box.mesh, {attempt.input.table(), attempt.complex().facets, box.standing}, attempt.seed)
       .run(tell);
 }
 
@@ -70,7 +70,7 @@ EnforceStats enforce_missing(const Attempt& attempt, BoxMesh& box) {
   const bool eliminate = attempt.options.stop_after != Stage::partition;
   Standing standing = box.standing;
   EnforceStats stats =
-      enforce(box.mesh, attempt.input.table(), attempt.complex().facets, standing, box.first_free,
+      enforce(box.mesh, {attempt.input.table(), attempt.complex().facets, standing}, box.first_free,
               {.seed = attempt.seed,
                .flips = attempt.options.flips,
                .eliminate = eliminate,
@@ -92,8 +92,7 @@ Division divide(const Attempt& attempt, BoxMesh& box) {
   if (parts != nullptr) seeds.resize(parts->seeds);
   std::erase_if(seeds, is_bound_alone);
   const Wanted wanted{options.keep, options.holes, seeds, options.drop_outside, parts};
-  division.kept = choose_regions(box.mesh, division.regions, attempt.complex(), attempt.input.table(), wanted,
-                                 box.scale, attempt.input.names());
+  division.kept = choose_regions(box.mesh, division.regions, attempt.named_complex(), wanted, box.scale);
   return division;
 }
 
@@ -105,9 +104,8 @@ void report_choice(const Attempt& attempt, BoxMesh& box, const Division& divisio
     result.report.turned_facets = kept.turned;
     result.warnings.push_back(warn_of_turned(attempt.complex(), kept.turned));
   }
-  for (Warning& warning :
-       find_open_interfaces(box.mesh, division.regions, kept, attempt.complex(), attempt.input.table(),
-                            attempt.input.names(), [&] { attempt.monitor.poll(Stage::classify, 1); }))
+  for (Warning& warning : find_open_interfaces(box.mesh, division.regions, kept, attempt.named_complex(),
+                                               [&] { attempt.monitor.poll(Stage::classify, 1); }))
     result.warnings.push_back(std::move(warning));
 }
 

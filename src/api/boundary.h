@@ -27,6 +27,7 @@ struct Attempt {
   const FillAnew* fill_anew;  ///< null: the optimisation fills no polyhedra again
 
   [[nodiscard]] const Complex& complex() const { return input.complex(); }
+  [[nodiscard]] NamedComplex named_complex() const { return {input.complex(), input.table(), input.names()}; }
   [[nodiscard]] Stage last_stage() const { return options.stop_after.value_or(Stage::optimise); }
 };
 
@@ -54,7 +55,7 @@ struct Division {
   [[nodiscard]] std::vector<Tet> tets(const TetMesh& mesh) const;
 };
 
-/// The Delaunay tetrahedra of the vertices and the corners of a box around them (paper §3).
+/// The Delaunay tetrahedra of the vertices and the corners of a box around them (paper §5.1).
 [[nodiscard]] BoxMesh delaunay_in_box(const Attempt& attempt);
 
 /// Recovers facets and segments by flips alone (paper §4). Some may still be missing.

@@ -7,8 +7,8 @@
 
 #include "exact/volume.h"
 #include "mesh/quality.h"
+#include "numbers/vector.h"
 #include "refine/point_setter.h"
-#include "refine/vector.h"
 #include "text/decimal.h"
 
 namespace holdfast {

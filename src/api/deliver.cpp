@@ -32,7 +32,7 @@ Warning warn_of_field_points() {
 
 // Warns if a large part of the volume does not get the caller's sizes.
 std::optional<Warning> warn_of_sizes(const Report::Field& field) {
-  constexpr double kWorthTelling = 0.1;
+  constexpr double kWorthTelling = 0.1;  // share of the volume
   if (field.limited_asked_volume < kWorthTelling || field.limiting.empty()) return std::nullopt;
   const Report::Field::Limiting& most = field.limiting.front();
   return Warning{

@@ -1,4 +1,4 @@
-// Kept regions with field points, and the sizes that determine these (paper §8).
+// Kept regions with field points, and the sizes that determine these (paper §9).
 #pragma once
 
 #include <memory>

@@ -27,7 +27,7 @@ std::vector<Defect> Input::validate(Report::Input& counts) {
   const bool must_enclose = options_.keep != Keep::box && last >= Stage::classify;
   if (encloses || !must_enclose) return {};
   std::vector<Defect> found = defects();
-  if (found.empty()) found.push_back(encloses_nothing(complex(), table_, names()));
+  if (found.empty()) found.push_back(encloses_nothing({complex(), table_, names()}));
   return found;
 }
 

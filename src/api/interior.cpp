@@ -180,7 +180,7 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
   const Extent extent = extent_of_good(field, begun, threads);
   field.without.reset();
   const Effort effort = attempt.options.effort;
-  constexpr double kUpToGood = 0.75;
+  constexpr double kUpToGood = 0.75;  // share of progress
   if (effort != Effort::fast)
     note(improve_further_in_parts(field.volume(), extent, begun.figures,
                                   {kCommonWork, effort == Effort::good ? 1 : kUpToGood}, threads,

@@ -1,4 +1,4 @@
-// The steps of a call inside the kept regions: field points and better elements (paper §7, §8).
+// The steps of a call inside the kept regions: field points and better elements (paper §6.4, §9).
 #pragma once
 
 #include <memory>

@@ -22,7 +22,7 @@ void require(bool sensible, const char* otherwise) {
   if (!sensible) throw std::invalid_argument(otherwise);
 }
 
-constexpr unsigned kMostLayers = 100;
+constexpr unsigned kMostLayers = 100;  // levels are counted in eight bits (refine/levels.h)
 
 // The same test serves for a volume.
 bool is_length_or_none(double x) { return x >= 0 && std::isfinite(x); }

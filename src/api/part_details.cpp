@@ -7,12 +7,15 @@
 
 #include "numbers/sorted.h"
 #include "repair/near.h"
-#include "surface/aabb_tree.h"
+#include "surface/box_pairs.h"
 #include "surface/describe.h"
 #include "text/decimal.h"
 
 namespace holdfast {
 namespace {
+
+// Pairs of a vertex and a facet that are compared at most: more would take long for advice.
+constexpr std::size_t kLeastPairs = 1'000'000, kPairsAFacet = 64;
 
 struct Detail {
   Index vertex, facet;
@@ -25,6 +28,17 @@ bool is_sound(const Complex& joined, const Triangle& t) {
   });
 }
 
+Box box_round(const Point& p, double margin) {
+  Box box{p, p};
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] -= margin;
+    box.high[k] += margin;
+  }
+  return box;
+}
+
+// The nearest vertex of a part to a facet of the same part, at most `most` apart; the first of those compared
+// if there are very many pairs.
 std::optional<Detail> finest_detail(const Complex& joined, std::span<const Index> part, double most,
                                     const Step& step) {
   std::vector<Index> facets, vertices, part_of_vertex(joined.vertices.size(), no_index);
@@ -38,37 +52,26 @@ std::optional<Detail> finest_detail(const Complex& joined, std::span<const Index
   }
   sort_unique(vertices);
   const auto at = [&](Index v) -> const Point& { return joined.vertices[v]; };
-  std::vector<Box> boxes;
-  for (const Index v : vertices) {
-    Box box{at(v), at(v)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] -= most;
-      box.high[k] += most;
-    }
-    boxes.push_back(box);
-  }
+  std::vector<Box> round_vertices, round_facets;
+  for (const Index v : vertices) round_vertices.push_back(box_round(at(v), most));
   for (const Index f : facets) {
     const Triangle& t = joined.facets[f];
     Box box{at(t[0]), at(t[0])};
     for (const Index v : t) box.extend({at(v), at(v)});
-    boxes.push_back(box);
+    round_facets.push_back(box);
   }
-  const auto first = static_cast<Index>(vertices.size());
-  std::size_t left = 1'000'000 + 64 * facets.size();
+  std::size_t left = kLeastPairs + kPairsAFacet * facets.size();
   std::optional<Detail> finest;
-  AabbTree(boxes).for_each_overlap(
-      [&](Index i, Index j) {
-        if (i > j) std::swap(i, j);
-        if (i >= first || j < first) return true;
-        const Index v = vertices[i], f = facets[j - first];
-        const Triangle& t = joined.facets[f];
-        if (part[f] != part_of_vertex[v] || v == t[0] || v == t[1] || v == t[2]) return true;
-        const double distance = repairing::distance_to(at(v), at(t[0]), at(t[1]), at(t[2]));
-        if (distance > 0 && distance <= most && (!finest || distance < finest->distance))
-          finest = Detail{v, f, distance};
-        return --left > 0;
-      },
-      [](Index, Index) { return false; }, step);
+  const auto compare = [&](Index i, Index j) {
+    const Index v = vertices[i], f = facets[j];
+    const Triangle& t = joined.facets[f];
+    if (part[f] != part_of_vertex[v] || v == t[0] || v == t[1] || v == t[2]) return true;
+    const double distance = repairing::distance_to(at(v), at(t[0]), at(t[1]), at(t[2]));
+    if (distance > 0 && distance <= most && (!finest || distance < finest->distance))
+      finest = Detail{v, f, distance};
+    return --left > 0;
+  };
+  for_each_overlap_between(std::move(round_vertices), round_facets, compare, step);
   return finest;
 }
 

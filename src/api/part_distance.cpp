@@ -9,15 +9,12 @@
 #include <queue>
 
 #include "numbers/elementary.h"
+#include "numbers/vector.h"
 #include "surface/aabb_tree.h"
 
 namespace holdfast {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
 Point along(const Point& a, const Vector& u, double t) {
   return {a[0] + t * u[0], a[1] + t * u[1], a[2] + t * u[2]};
 }
@@ -27,7 +24,7 @@ double distance(const Point& a, const Point& b) {
 
 /// The nearest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
 std::array<Point, 2> between_sides(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Vector u = minus(b, a), v = minus(d, c), w = minus(a, c);
+  const Vector u = b - a, v = d - c, w = a - c;
   const double uu = dot(u, u), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), uv = dot(u, v);
   const auto inside = [](double t) { return std::isfinite(t) ? std::clamp(t, 0.0, 1.0) : 0.0; };
   const double denominator = uu * vv - uv * uv;
@@ -39,7 +36,7 @@ std::array<Point, 2> between_sides(const Point& a, const Point& b, const Point& 
 
 /// The projection of p onto a triangle, or the corner a if it falls outside the triangle.
 Point on_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
-  const Vector u = minus(b, a), v = minus(c, a), w = minus(p, a);
+  const Vector u = b - a, v = c - a, w = p - a;
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const double denominator = uu * vv - uv * uv;
   const double t = (vv * uw - uv * vw) / denominator, s = (uu * vw - uv * uw) / denominator;

@@ -155,7 +155,7 @@ void prove_distance(const Complex& joined, double tolerance, const Step& step, P
   }
   if (is_within(joined, claimed, step, result)) return;
   double distance = std::max(claimed, largest_coordinate(joined) * 0x1p-53);
-  constexpr int kDoublings = 6;
+  constexpr int kDoublings = 6;  // a rounded bound is wrong by last bits only
   for (int k = 0; k < kDoublings; ++k, distance *= 2) {
     if (!is_within(joined, distance, step, result)) continue;
     result.max_displacement = distance;

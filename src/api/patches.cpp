@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -11,11 +12,10 @@
 #include "mesh/disjoint_sets.h"
 #include "numbers/elementary.h"
 #include "numbers/sorted.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct SideOfFacet {
   Segment edge;  // ascending places
@@ -24,17 +24,10 @@ struct SideOfFacet {
   Segment ends{};        // the facet's own vertices
 };
 
-using Normal = std::array<double, 3>;
-
-Normal minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double dot(const Normal& a, const Normal& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// The unit normal, or nullopt if it cannot be computed in doubles.
-std::optional<Normal> normal_of(const Surface& surface, const Triangle& t) {
-  const Normal u = minus(surface.vertices[t[1]], surface.vertices[t[0]]),
-               v = minus(surface.vertices[t[2]], surface.vertices[t[0]]);
-  Normal n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+std::optional<Vector> normal_of(const Surface& surface, const Triangle& t) {
+  const Point& first = surface.vertices[t[0]];
+  Vector n = cross(surface.vertices[t[1]] - first, surface.vertices[t[2]] - first);
   const double length = numbers::hypot(n[0], n[1], n[2]);
   if (!(length > 0) || length - length != 0) return std::nullopt;
   for (double& x : n) x /= length;
@@ -64,7 +57,9 @@ std::vector<SideOfFacet> sides_of(const Surface& surface, const std::vector<Inde
 class Patches {
  public:
   Patches(const Surface& surface, double degrees, const std::vector<Index>& facets)
-      : surface_(surface), least_(numbers::cos(degrees * kPi / 180)), sets_(surface.facets.size()) {
+      : surface_(surface),
+        least_(numbers::cos(degrees * std::numbers::pi / 180)),
+        sets_(surface.facets.size()) {
     const std::vector<SideOfFacet> sides = sides_of(surface, facets);  // this also checks the indices
     normals_.resize(surface.facets.size());
     for (const Index f : facets) normals_[f] = normal_of(surface, surface.facets[f]);
@@ -98,7 +93,7 @@ class Patches {
   const Surface& surface_;
   double least_;  // cosine of the largest angle
   DisjointSets sets_;
-  std::vector<std::optional<Normal>> normals_;
+  std::vector<std::optional<Vector>> normals_;
   std::map<Index, Neighbour> neighbour_;  // of facets without a normal: across the longest edge
 };
 

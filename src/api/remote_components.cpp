@@ -149,6 +149,20 @@ class RemoteComponents {
 
   // Kept tetrahedra stay in order, followed by the new ones. Unused vertices are removed.
   void join() {
+    Joined joined = join_all();
+    renumber(joined);
+    volume_.tetrahedra = std::move(joined.tets);
+    volume_.regions = std::move(joined.regions);
+    report();
+  }
+
+  struct Joined {
+    std::vector<Point> points;
+    std::vector<Tetrahedron> tets;
+    std::vector<int> regions;
+  };
+
+  Joined join_all() {
     std::vector<Point> points = volume_.vertices;
     std::vector<Tetrahedron> tets;
     std::vector<int> regions;
@@ -170,21 +184,27 @@ class RemoteComponents {
       }
       result_.report.field.points += fresh.result.report.field.points;
     }
-    std::vector<bool> used(points.size(), false);
-    for (const Tetrahedron& t : tets)
+    return {std::move(points), std::move(tets), std::move(regions)};
+  }
+
+  // Keeps the vertices of the input and those in use.
+  void renumber(Joined& joined) {
+    std::vector<bool> used(joined.points.size(), false);
+    for (const Tetrahedron& t : joined.tets)
       for (const Index v : t) used[v] = true;
-    std::vector<Index> index(points.size());
+    std::vector<Index> index(joined.points.size());
     volume_.vertices.clear();
-    for (std::size_t v = 0; v < points.size(); ++v) {
+    for (std::size_t v = 0; v < joined.points.size(); ++v) {
       index[v] = static_cast<Index>(volume_.vertices.size());
-      if (v < complex_.vertices.size() || used[v]) volume_.vertices.push_back(points[v]);
+      if (v < complex_.vertices.size() || used[v]) volume_.vertices.push_back(joined.points[v]);
     }
     volume_.input_vertices.resize(volume_.vertices.size(), -1);
     if (!volume_.vertex_markers.empty()) volume_.vertex_markers.resize(volume_.vertices.size(), 0);
-    for (Tetrahedron& t : tets)
+    for (Tetrahedron& t : joined.tets)
       for (Index& v : t) v = index[v];
-    volume_.tetrahedra = std::move(tets);
-    volume_.regions = std::move(regions);
+  }
+
+  void report() {
     Report& report = result_.report;
     report.steiner_points += volume_.vertices.size();
     report.steiner_points -= report.vertices;

@@ -96,54 +96,81 @@ void keep_only(repairing::State& state, repairing::Holes& holes, const std::vect
   repairing::renumber(holes, state, number, repairing::drop_unused(state));
 }
 
+/// What the facets of each component separate.
+class ComponentWalls {
+ public:
+  ComponentWalls(const Complex& input, const repairing::State& state, const DividedSpace& division)
+      : input_(input), state_(state), division_(division), component_(components_of(input)) {
+    find_components_at_vertices();
+    for (std::size_t f = 0; f < state_.facets.size(); ++f) add_facet(f);
+  }
+
+  /// The regions that at least one component keeps.
+  [[nodiscard]] std::vector<std::uint8_t> material(const Step& step) {
+    std::vector<std::uint8_t> material(division_.regions, 0);
+    for (auto& [component, walls] : walls_) {
+      step(0.9);
+      sort_unique(walls);
+      std::vector<Wall> airs;
+      for (const auto& [pair, common] : common_to_)
+        if (!std::binary_search(common.begin(), common.end(), component)) airs.push_back(pair);
+      const std::vector<std::uint8_t> own = material_of(division_.regions, walls, airs);
+      for (std::size_t r = 0; r < material.size(); ++r) material[r] = material[r] | own[r];
+    }
+    return material;
+  }
+
+ private:
+  void find_components_at_vertices() {
+    component_at_.assign(state_.vertices.size(), 0);
+    for (std::size_t f = 0; f < state_.facets.size(); ++f)
+      for (const Index p : state_.facet_parents.of(f))
+        for (const Index v : state_.facets[f]) component_at_[v] = component_[p];
+  }
+
+  void add_facet(std::size_t f) {
+    const auto [front, back] = division_.of_facet[f];
+    std::vector<Index> own;
+    for (const Index p : state_.facet_parents.of(f)) {
+      own.push_back(component_[p]);
+      const bool is_alike =
+          turned_alike(state_.vertices, state_.facets[f], input_.vertices, input_.facets[p]);
+      walls_[component_[p]].push_back(is_alike ? Wall{front, back} : Wall{back, front});
+    }
+    sort_unique(own);
+    if (own.empty()) {  // then it fills a hole of the component that has its corners
+      own.push_back(component_at_[state_.facets[f][0]]);
+      walls_[own[0]].push_back({front, back});
+    }
+    if (front != back) note_common(Wall{std::min(front, back), std::max(front, back)}, own);
+  }
+
+  void note_common(const Wall& pair, const std::vector<Index>& components) {
+    const auto [at, is_new] = common_to_.try_emplace(pair, components);
+    if (is_new) return;
+    std::vector<Index> common;
+    std::set_intersection(at->second.begin(), at->second.end(), components.begin(), components.end(),
+                          std::back_inserter(common));
+    at->second = std::move(common);
+  }
+
+  const Complex& input_;
+  const repairing::State& state_;
+  const DividedSpace& division_;
+  const std::vector<Index> component_;        // by facet of the input
+  std::vector<Index> component_at_;           // by vertex of the arrangement
+  std::map<Index, std::vector<Wall>> walls_;  // by component
+  // By two regions: the components to which every facet between them belongs.
+  std::map<Wall, std::vector<Index>> common_to_;
+};
+
 }  // namespace
 
 void unite(const Complex& input, repairing::State& state, repairing::Holes& holes, const Step& step,
            const Threads& threads) {
   if (state.facets.empty()) return;
   const DividedSpace division = divide_space({state.vertices, state.facets, {}, {}, {}}, step, threads);
-
-  const std::vector<Index> component = components_of(input);
-  std::map<Index, std::vector<Wall>> walls;       // by component
-  std::map<Wall, std::vector<Index>> components;  // by the two regions that a facet separates, intersected
-  std::vector<Index> component_at(state.vertices.size(), 0);
-  for (std::size_t f = 0; f < state.facets.size(); ++f)
-    for (const Index p : state.facet_parents.of(f))
-      for (const Index v : state.facets[f]) component_at[v] = component[p];
-  std::vector<Index> own;
-  for (std::size_t f = 0; f < state.facets.size(); ++f) {
-    const auto [front, back] = division.of_facet[f];
-    own.clear();
-    for (const Index p : state.facet_parents.of(f)) {
-      own.push_back(component[p]);
-      const bool alike = turned_alike(state.vertices, state.facets[f], input.vertices, input.facets[p]);
-      walls[component[p]].push_back(alike ? Wall{front, back} : Wall{back, front});
-    }
-    sort_unique(own);
-    if (own.empty()) {  // then it fills a hole of the component that has its corners
-      const Index c = component_at[state.facets[f][0]];
-      own.push_back(c);
-      walls[c].push_back({front, back});
-    }
-    if (front == back) continue;
-    const Wall pair{std::min(front, back), std::max(front, back)};
-    const auto [at, is_new] = components.try_emplace(pair, own);
-    if (is_new) continue;
-    std::vector<Index> common;
-    std::set_intersection(at->second.begin(), at->second.end(), own.begin(), own.end(),
-                          std::back_inserter(common));
-    at->second = std::move(common);
-  }
-  std::vector<std::uint8_t> material(division.regions, 0);
-  for (auto& [c, list] : walls) {
-    step(0.9);
-    sort_unique(list);
-    std::vector<Wall> airs;
-    for (const auto& [pair, of] : components)
-      if (!std::binary_search(of.begin(), of.end(), c)) airs.push_back(pair);
-    const std::vector<std::uint8_t> mine = material_of(division.regions, list, airs);
-    for (std::size_t r = 0; r < material.size(); ++r) material[r] = material[r] | mine[r];
-  }
+  const std::vector<std::uint8_t> material = ComponentWalls(input, state, division).material(step);
   std::vector<std::uint8_t> keep(state.facets.size());
   for (std::size_t f = 0; f < keep.size(); ++f)
     keep[f] = material[division.of_facet[f][0]] != material[division.of_facet[f][1]];

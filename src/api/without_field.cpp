@@ -15,7 +15,7 @@ constexpr double kManyTimes = 8;
 // In meshes above kManyTets the optimisation changes only a small part, so the mean Q does not halve. In
 // smaller ones above kTets it may change much, but not remove such a share of elements below 10 degrees.
 constexpr std::size_t kManyTets = 10'000, kTets = 500;
-constexpr double kManyBelow10 = 0.3;
+constexpr double kManyBelow10 = 0.3;  // share of the elements
 // More work removes this part of the excess of the mean Q over that of a mesh without bad elements.
 constexpr double kMended = 0.3, kWithoutBad = 3;
 

@@ -64,7 +64,7 @@ class Arranging {
     if (added > options_.most_points) throw TooManyPoints(added);
   }
 
-  // --- Sheets -----------------------------------------------------------------------------------------
+  // --- Sheets
 
   /// The sheet of a facet; a new one if the facet has none.
   Gathered& sheet_at(Index element) {
@@ -172,7 +172,7 @@ class Arranging {
     }
   }
 
-  // --- Results ----------------------------------------------------------------------------------------
+  // --- Results
 
   void deliver_facets() {
     // Triangles by their first parents, which are elements.

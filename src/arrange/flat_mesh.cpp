@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "numbers/random.h"
 #include "plane/swaps.h"
 
 namespace holdfast::arrange {
@@ -45,7 +46,7 @@ EdgeCode FlatMesh::locate(Vertex p, unsigned& zeros) const {
   for (;;) {
     zeros = 0;
     EdgeCode on = code(t, 0), out = kNoEdge;
-    turn = turn * 1664525u + 1013904223u;
+    turn = numbers::next_congruential(turn);
     const std::uint32_t first = (turn >> 24) % 3;
     for (std::uint32_t k = 0; k < 3 && out == kNoEdge; ++k) {
       const EdgeCode e = code(t, (first + k) % 3);
@@ -231,47 +232,52 @@ void FlatMesh::lay(Vertex from, Vertex to, const std::vector<EdgeCode>& crossed,
 }
 
 void FlatMesh::insert_segment(Vertex a, Vertex b, std::uint32_t line, const Crossing& crossing) {
-  std::vector<EdgeCode> crossed;
   for (Vertex at = a, behind = kNoVertex; at != b;) {
     const Departure leaving = depart(at, b, behind);
-    if (leaving.along != kNoVertex) {
-      constrain(at, leaving.along, line);
-      behind = std::exchange(at, leaving.along);
-      continue;
-    }
-    crossed.clear();
-    EdgeCode leave = leaving.across;
-    Vertex next = kNoVertex;
-    while (next == kNoVertex) {
-      if (mesh_.constrained(leave)) {
-        const Vertex p = crossing(line, line_of_.find(key(mesh_.from(leave), mesh_.to(leave))));
-        mesh_.add_star(0);
-        split_edge(leave, p);
-        // The triangles at the edge have changed, but the way to p crosses no segment.
+    Vertex next = leaving.along;
+    if (next != kNoVertex) {
+      constrain(at, next, line);
+    } else {
+      Passage passage = pass(at, b, leaving.across);
+      if (passage.segment != kNoEdge) {
+        const Vertex p = cut_segment(passage.segment, line, crossing);
+        // The triangles at the segment have changed, but the way to p crosses no other one.
         const Departure again = depart(at, p, behind);
-        crossed.clear();
-        next = p;
-        if (again.along == p) break;
-        for (EdgeCode e = again.across;;) {
-          crossed.push_back(e);
-          const EdgeCode entered = mesh_.across(e);
-          const Vertex corner = mesh_.apex(entered);
-          if (corner == p) break;
-          e = orient(at, p, corner) > 0 ? next_edge(entered) : previous_edge(entered);
-        }
-        break;
+        passage = again.along == p ? Passage{p} : pass(at, p, again.across);
       }
-      crossed.push_back(leave);
-      const EdgeCode entered = mesh_.across(leave);
-      if (entered == kNoEdge) throw std::logic_error("a trace leaves its sheet");
-      const Vertex corner = mesh_.apex(entered);
-      const int side = corner == b ? 0 : orient(at, b, corner);
-      if (side == 0) next = corner;
-      leave = side > 0 ? next_edge(entered) : previous_edge(entered);
+      next = passage.next;
+      lay(at, next, passage.crossed, line);
     }
-    lay(at, next, crossed, line);
     behind = std::exchange(at, next);
   }
+}
+
+/// Follows the line from one vertex to another across edges, from `leave` on: to the next vertex on the line,
+/// or to a segment that crosses it.
+FlatMesh::Passage FlatMesh::pass(Vertex from, Vertex to, EdgeCode leave) const {
+  Passage passage;
+  while (!mesh_.constrained(leave)) {
+    passage.crossed.push_back(leave);
+    const EdgeCode entered = mesh_.across(leave);
+    if (entered == kNoEdge) throw std::logic_error("a trace leaves its sheet");
+    const Vertex corner = mesh_.apex(entered);
+    const int side = corner == to ? 0 : orient(from, to, corner);
+    if (side == 0) {
+      passage.next = corner;
+      return passage;
+    }
+    leave = side > 0 ? next_edge(entered) : previous_edge(entered);
+  }
+  passage.segment = leave;
+  return passage;
+}
+
+/// Puts the vertex where the line crosses a segment. Returns the vertex.
+Vertex FlatMesh::cut_segment(EdgeCode segment, std::uint32_t line, const Crossing& crossing) {
+  const Vertex p = crossing(line, line_of_.find(key(mesh_.from(segment), mesh_.to(segment))));
+  mesh_.add_star(0);
+  split_edge(segment, p);
+  return p;
 }
 
 std::vector<Vertex> FlatMesh::chain(Vertex a, Vertex b) const {

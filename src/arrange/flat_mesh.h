@@ -48,6 +48,13 @@ class FlatMesh {
     Vertex along = plane::kNoVertex;
     EdgeCode across = plane::kNoEdge;
   };
+  // The edges that a segment crosses up to the next vertex on it, or to another segment.
+  struct Passage {
+    Vertex next = plane::kNoVertex;
+    EdgeCode segment = plane::kNoEdge;
+    std::vector<EdgeCode> crossed = {};
+  };
+
   [[nodiscard]] unsigned sides_of(Vertex v) const { return v < sides_.size() ? sides_[v] : 0; }
   [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c) const {
     if ((sides_of(a) & sides_of(b) & sides_of(c)) != 0) return 0;
@@ -61,6 +68,8 @@ class FlatMesh {
   void legalise();
   /// `behind`: a vertex on the same line on the other side of `from`, if one is known.
   [[nodiscard]] Departure depart(Vertex from, Vertex to, Vertex behind = plane::kNoVertex) const;
+  [[nodiscard]] Passage pass(Vertex from, Vertex to, EdgeCode leave) const;
+  Vertex cut_segment(EdgeCode segment, std::uint32_t line, const Crossing& crossing);
   void lay(Vertex from, Vertex to, const std::vector<EdgeCode>& crossed, std::uint32_t line);
   void constrain(Vertex from, Vertex to, std::uint32_t line);
   template <class Visit>

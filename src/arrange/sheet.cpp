@@ -119,7 +119,6 @@ class SheetLines {
 };
 
 // --- Points
-// -------------------------------------------------------------------------------------------------
 
 /// A triangle round all facets; its corners are not points of the pool.
 FlatMesh begin_beyond(const Given& given, SheetPoints& points) {
@@ -195,7 +194,7 @@ void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const p
     points.insert(points.end(), trace.ends.begin(), trace.ends.end());
   sort_unique(points);
   std::erase_if(points, [&](Index p) { return all.has(p); });
-  constexpr std::size_t kFew = 16;
+  constexpr std::size_t kFew = 16;  // for fewer, an order along a curve does not pay
   if (points.size() > kFew) points = in_order(given, points);
   const std::vector<std::array<Index, 2>> sides = sides_of_points(given);
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -207,7 +206,6 @@ void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const p
 }
 
 // --- Traces
-// -------------------------------------------------------------------------------------------------
 
 /// Inserts the traces and, if there are several facets, their sides.
 void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, Crossings& crossings,
@@ -232,7 +230,6 @@ void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, Cros
 }
 
 // --- Triangles
-// ----------------------------------------------------------------------------------------------
 
 /// Adds a triangle with the facets that contain it.
 void take(const Given& given, const SheetPoints& points, const std::array<Vertex, 3>& v,

@@ -40,8 +40,8 @@ struct SheetInput {
   std::span<const Index> facets;
   std::span<const Index> points;
   std::span<const Trace> traces;
-  std::span<const PointOnSide> on_sides;  ///< points and ends of traces known to lie on sides; may be
-                                          ///< incomplete
+  /// Points and ends of traces known to lie on sides; may be incomplete.
+  std::span<const PointOnSide> on_sides;
   std::size_t most_crossings = SIZE_MAX;  ///< largest number of crossings of traces; more throw TooManyPoints
 };
 

@@ -29,19 +29,19 @@ Defect not_oriented(const Complex& complex, const std::array<Index, 2>& facets) 
 
 class Chooser {
  public:
-  Chooser(const TetMesh& mesh, const Regions& regions, const Complex& complex, const SegmentTable& table,
-          const Wanted& wanted, int scale, const VertexNames& names)
+  Chooser(const TetMesh& mesh, const Regions& regions, const NamedComplex& input, const Wanted& wanted,
+          int scale)
       : mesh_(mesh),
         regions_(regions),
-        complex_(complex),
-        table_(table),
+        input_(input),
+        complex_(input.complex),
+        table_(input.table),
         wanted_(wanted),
-        scale_(scale),
-        names_(names) {}
+        scale_(scale) {}
 
   Kept run() {
     if (regions_.count == 1 && wanted_.keep != Keep::box) {
-      kept_.defects.push_back(encloses_nothing(complex_, table_, names_));
+      kept_.defects.push_back(encloses_nothing(input_));
       return std::move(kept_);
     }
     if (wanted_.parts != nullptr)
@@ -51,19 +51,12 @@ class Chooser {
     if (!kept_.defects.empty() || is_refused()) return std::move(kept_);
     for (const Point& hole : wanted_.holes) kept_.region[region_at(hole, "hole")] = false;
     if (std::find(kept_.region.begin(), kept_.region.end(), true) == kept_.region.end()) {
-      kept_.defects.push_back({DefectKind::encloses_nothing,
-                               {},
-                               {},
-                               {},
-                               wanted_.holes.empty() ? std::vector<Point>{} : std::vector{wanted_.holes[0]},
-                               wanted_.parts != nullptr && wanted_.holes.empty()
-                                   ? "no part encloses anything: close its borders"
-                                   : "nothing is left to fill: every region is a hole; leave out a hole"});
+      kept_.defects.push_back(nothing_left());
       return std::move(kept_);
     }
     number();
     find_kept_segments();
-    if (!wanted_.drop_outside) kept_.defects = find_outside(mesh_, regions_, kept_, complex_, table_, names_);
+    if (!wanted_.drop_outside) kept_.defects = find_outside(mesh_, regions_, kept_, input_);
     return std::move(kept_);
   }
 
@@ -107,6 +100,15 @@ class Chooser {
     for (RegionId r = 0; r < regions_.count; ++r) kept_.region[r] = box || of_parts_[r].has_value();
   }
 
+  [[nodiscard]] Defect nothing_left() const {
+    Defect defect{DefectKind::encloses_nothing, {}, {}, {}, {}, {}};
+    if (!wanted_.holes.empty()) defect.where.push_back(wanted_.holes[0]);
+    defect.message = wanted_.parts != nullptr && wanted_.holes.empty()
+                         ? "no part encloses anything: close its borders"
+                         : "nothing is left to fill: every region is a hole; leave out a hole";
+    return defect;
+  }
+
   [[nodiscard]] bool is_refused() const {
     return wanted_.parts != nullptr && wanted_.parts->overlap == Overlap::refuse && !kept_.overlaps.empty();
   }
@@ -141,7 +143,7 @@ class Chooser {
       const RegionId r = region_at(seed.where, "region seed");
       if (!kept_.region[r]) throw in_region_not_kept(seed.where);
       if (seeded[r] && kept_.id[r] != seed.id)
-        throw with_two_ids(seed, kept_.id[r], complex_, open_border_in(r), names_);
+        throw with_two_ids(seed, kept_.id[r], complex_, open_border_in(r), input_.names);
       kept_.id[r] = seed.id;
       seeded[r] = true;
       taken.insert(seed.id);
@@ -184,20 +186,20 @@ class Chooser {
 
   const TetMesh& mesh_;
   const Regions& regions_;
+  const NamedComplex& input_;
   const Complex& complex_;
   const SegmentTable& table_;
   const Wanted& wanted_;
   const int scale_;
-  const VertexNames& names_;
   std::vector<std::optional<int>> of_parts_;  // ids, by region, if there are parts
   Kept kept_;
 };
 
 }  // namespace
 
-Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
-                    const SegmentTable& table, const Wanted& wanted, int scale, const VertexNames& names) {
-  return Chooser(mesh, regions, complex, table, wanted, scale, names).run();
+Kept choose_regions(const TetMesh& mesh, const Regions& regions, const NamedComplex& input,
+                    const Wanted& wanted, int scale) {
+  return Chooser(mesh, regions, input, wanted, scale).run();
 }
 
 std::invalid_argument on_the_surface(const std::string& what, const Point& p) {

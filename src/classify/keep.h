@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "classify/named_complex.h"
 #include "classify/parts.h"
 #include "classify/regions.h"
 #include "holdfast/holdfast.h"
@@ -38,8 +39,8 @@ struct Wanted {
   Keep keep = Keep::automatic;
   std::span<const Point> holes;
   std::span<const RegionSeed> seeds;
-  bool drop_outside = false;  ///< leave out elements that border on no kept region, instead of reporting a
-                              ///< defect
+  /// Leave out elements that border on no kept region, instead of reporting a defect.
+  bool drop_outside = false;
   /// For a pasted surface: the regions of the parts are kept with the parts' ids, except holes and regions to
   /// which `seeds` give other ids.
   const PartsOfComplex* parts = nullptr;
@@ -49,13 +50,12 @@ struct Wanted {
 ///
 /// A region with a seed has the seed's id. Other kept regions have the lowest positive ids that no seed
 /// takes, in the order of their numbers. If parts overlap that must not, no region is chosen. The mesh is the
-/// complex times 2^scale. `names` are those of the complex's vertices.
+/// complex times 2^scale.
 ///
 /// Throws std::invalid_argument for a hole or region seed that lies on a facet or in no region that it
 /// could mean, and for seeds that give one region two ids.
-[[nodiscard]] Kept choose_regions(const TetMesh& mesh, const Regions& regions, const Complex& complex,
-                                  const SegmentTable& table, const Wanted& wanted, int scale = 0,
-                                  const VertexNames& names = {});
+[[nodiscard]] Kept choose_regions(const TetMesh& mesh, const Regions& regions, const NamedComplex& input,
+                                  const Wanted& wanted, int scale = 0);
 
 /// The exception for a hole or region seed (`what`) at a place where it has no meaning.
 [[nodiscard]] std::invalid_argument on_the_surface(const std::string& what, const Point& p);

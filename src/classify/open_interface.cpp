@@ -200,14 +200,13 @@ class LeastCut {
 
 class Finder {
  public:
-  Finder(TetMesh& mesh, const Regions& regions, const Kept& kept, const Complex& complex,
-         const SegmentTable& table, const VertexNames& names, const Tell& tell)
+  Finder(TetMesh& mesh, const Regions& regions, const Kept& kept, const NamedComplex& input, const Tell& tell)
       : mesh_(mesh),
         regions_(regions),
         kept_(kept),
-        complex_(complex),
-        table_(table),
-        names_(names),
+        complex_(input.complex),
+        table_(input.table),
+        names_(input.names),
         tell_(tell) {}
 
   std::vector<Warning> run() {
@@ -222,7 +221,7 @@ class Finder {
   }
 
  private:
-  static constexpr std::size_t kMostSheets = 100;
+  static constexpr std::size_t kMostSheets = 100;  // that are examined: each takes a cut
 
   // The number of faces that close the sheet's opening, if it has one.
   std::optional<std::size_t> opening(const Sheet& sheet) {
@@ -304,9 +303,8 @@ class Finder {
 }  // namespace
 
 std::vector<Warning> find_open_interfaces(TetMesh& mesh, const Regions& regions, const Kept& kept,
-                                          const Complex& complex, const SegmentTable& table,
-                                          const VertexNames& names, const std::function<void()>& tell) {
-  return Finder(mesh, regions, kept, complex, table, names, tell).run();
+                                          const NamedComplex& input, const std::function<void()>& tell) {
+  return Finder(mesh, regions, kept, input, tell).run();
 }
 
 }  // namespace holdfast

@@ -24,8 +24,7 @@ namespace holdfast {
 ///
 /// `tell` is called from time to time, and may throw.
 [[nodiscard]] std::vector<Warning> find_open_interfaces(TetMesh& mesh, const Regions& regions,
-                                                        const Kept& kept, const Complex& complex,
-                                                        const SegmentTable& table, const VertexNames& names,
+                                                        const Kept& kept, const NamedComplex& input,
                                                         const std::function<void()>& tell);
 
 }  // namespace holdfast

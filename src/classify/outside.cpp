@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "classify/words.h"
+#include "mesh/disjoint_sets.h"
 #include "surface/describe.h"
 
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kListed = 3;
+constexpr std::size_t kListed = 3;  // more would make a message long
 
 // Connected facets, segments of the table, and vertices.
 struct Piece {
@@ -22,18 +22,16 @@ struct Piece {
 class PieceFinder {
  public:
   PieceFinder(const Complex& complex, const SegmentTable& table)
-      : complex_(complex), table_(table), parent_(complex.vertices.size()) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
+      : complex_(complex), table_(table), sets_(complex.vertices.size()) {}
 
   void add_facet(Index f) {
     facets_.push_back(f);
-    join(complex_.facets[f][0], complex_.facets[f][1]);
-    join(complex_.facets[f][0], complex_.facets[f][2]);
+    sets_.unite(complex_.facets[f][0], complex_.facets[f][1]);
+    sets_.unite(complex_.facets[f][0], complex_.facets[f][2]);
   }
   void add_segment(Index s) {
     segments_.push_back(s);
-    join(table_.segments[s][0], table_.segments[s][1]);
+    sets_.unite(table_.segments[s][0], table_.segments[s][1]);
   }
   void add_vertex(Index v) { vertices_.push_back(v); }
 
@@ -42,7 +40,7 @@ class PieceFinder {
     std::vector<Piece> pieces;
     std::map<Index, std::size_t> of_root;
     const auto piece_at = [&](Index v) -> Piece& {
-      const auto [place, added] = of_root.try_emplace(root(v), pieces.size());
+      const auto [place, added] = of_root.try_emplace(sets_.root(v), pieces.size());
       if (added) pieces.emplace_back();
       return pieces[place->second];
     };
@@ -58,20 +56,14 @@ class PieceFinder {
   }
 
  private:
-  Index root(Index v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(Index a, Index b) { parent_[root(a)] = root(b); }
-
   const Complex& complex_;
   const SegmentTable& table_;
-  std::vector<Index> parent_;
+  DisjointSets sets_;  // of vertices
   std::vector<Index> facets_, segments_, vertices_;
 };
 
-Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& table,
-                const VertexNames& names) {
+Defect describe(const Piece& piece, const NamedComplex& input) {
+  const auto& [complex, table, names] = input;
   Defect defect{DefectKind::outside_region, {}, piece.facets, {}, {}, {}};
   for (const Index v : piece.vertices) defect.vertices.push_back(names(v));
   for (const Index s : piece.segments) defect.segments.push_back(table.input_segment[s]);
@@ -96,8 +88,8 @@ Defect describe(const Piece& piece, const Complex& complex, const SegmentTable& 
 }
 
 // "4 edges at vertex 7 (1, 2, 3), 12 edges at vertex 0 (4, 5, 6) and 3 more".
-std::string list(const std::vector<Piece>& borders, const Complex& complex, const SegmentTable& table,
-                 const VertexNames& names) {
+std::string list(const std::vector<Piece>& borders, const NamedComplex& input) {
+  const auto& [complex, table, names] = input;
   std::string words;
   for (std::size_t i = 0; i < std::min(borders.size(), kListed); ++i) {
     const std::vector<Index>& edges = borders[i].segments;
@@ -120,7 +112,8 @@ std::vector<bool> vertices_in_kept(const TetMesh& mesh, const Regions& regions, 
 
 }  // namespace
 
-Defect encloses_nothing(const Complex& complex, const SegmentTable& table, const VertexNames& names) {
+Defect encloses_nothing(const NamedComplex& input) {
+  const auto& [complex, table, names] = input;
   Defect defect{DefectKind::encloses_nothing, {}, {}, {}, {}, {}};
   PieceFinder finder(complex, table);
   for (Index s = 0; s < table.segments.size(); ++s) {
@@ -137,15 +130,14 @@ Defect encloses_nothing(const Complex& complex, const SegmentTable& table, const
     defect.message += ": it has no triangles";
   else if (!borders.empty())
     defect.message += ": it has " + std::to_string(borders.size()) +
-                      (borders.size() == 1 ? " open border, " : " open borders, ") +
-                      list(borders, complex, table, names);
+                      (borders.size() == 1 ? " open border, " : " open borders, ") + list(borders, input);
   defect.message += "; close it, or fill everything out to an enclosing box";
   return defect;
 }
 
 std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, const Kept& kept,
-                                 const Complex& complex, const SegmentTable& table,
-                                 const VertexNames& names) {
+                                 const NamedComplex& input) {
+  const auto& [complex, table, names] = input;
   PieceFinder finder(complex, table);
   for (Index f = 0; f < complex.facets.size(); ++f)
     if (!kept.facet(regions, f)) finder.add_facet(f);
@@ -160,7 +152,7 @@ std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, co
       if (isolated[v] && !in[v]) finder.add_vertex(v);
   }
   std::vector<Defect> defects;
-  for (const Piece& piece : finder.pieces()) defects.push_back(describe(piece, complex, table, names));
+  for (const Piece& piece : finder.pieces()) defects.push_back(describe(piece, input));
   return defects;
 }
 

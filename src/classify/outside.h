@@ -8,13 +8,11 @@
 namespace holdfast {
 
 /// A surface without any bounded region: names the open borders.
-[[nodiscard]] Defect encloses_nothing(const Complex& complex, const SegmentTable& table,
-                                      const VertexNames& names = {});
+[[nodiscard]] Defect encloses_nothing(const NamedComplex& input);
 
 /// Facets, dangling segments and isolated vertices that border on no kept region: one defect for each
 /// connected set of them. `kept` has its regions and segments.
 [[nodiscard]] std::vector<Defect> find_outside(const TetMesh& mesh, const Regions& regions, const Kept& kept,
-                                               const Complex& complex, const SegmentTable& table,
-                                               const VertexNames& names = {});
+                                               const NamedComplex& input);
 
 }  // namespace holdfast

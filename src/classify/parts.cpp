@@ -8,6 +8,8 @@
 
 #include "mesh/disjoint_sets.h"
 #include "numbers/sorted.h"
+#include "numbers/vector.h"
+#include "surface/aabb_tree.h"
 #include "surface/describe.h"
 #include "text/decimal.h"
 
@@ -141,16 +143,11 @@ void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, co
       if (holders.of_region[r].size() < 2) continue;
       Measures& of = measures[r];
       if (!of.origin) of.origin = complex.vertices[a];
-      const auto from = [&](const Point& p, const Point& q) {
-        return Point{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
-      };
-      const Point u = from(complex.vertices[a], complex.vertices[b]);
-      const Point v = from(complex.vertices[a], complex.vertices[c]);
-      const Point w = from(*of.origin, complex.vertices[a]);
-      const Point n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-      const double six_volumes = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+      const Point& p = complex.vertices[a];
+      const Vector n = cross(complex.vertices[b] - p, complex.vertices[c] - p);
+      const double six_volumes = dot(p - *of.origin, n);
       of.volume += (r == front ? six_volumes : -six_volumes) / 6;
-      of.area += std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+      of.area += length(n) / 2;
     }
   }
   for (RegionId r = 0; r < regions.count; ++r) {
@@ -162,32 +159,23 @@ void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, co
 
 std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& holders,
                                        const Complex& complex) {
-  struct Extent {
-    Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-              std::numeric_limits<double>::infinity()};
-    Point high{-low[0], -low[1], -low[2]};
-    void extend(const Point& p) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], p[k]);
-        high[k] = std::max(high[k], p[k]);
-      }
-    }
-  };
-  std::map<std::array<Index, 2>, Extent> boxes;
+  std::map<std::array<Index, 2>, Box> boxes;
   for (std::size_t f = 0; f < regions.of_facet.size(); ++f)
     for (const RegionId r : regions.of_facet[f]) {
       const auto& claims = holders.of_region[r];
       for (std::size_t i = 0; i < claims.size(); ++i)
         for (std::size_t j = i + 1; j < claims.size(); ++j)
-          for (const Index v : complex.facets[f])
-            boxes[{claims[i].part, claims[j].part}].extend(complex.vertices[v]);
+          for (const Index v : complex.facets[f]) {
+            const Box corner{complex.vertices[v], complex.vertices[v]};
+            boxes.try_emplace({claims[i].part, claims[j].part}, corner).first->second.extend(corner);
+          }
     }
   std::vector<PartOverlap> overlaps;
   for (const auto& [pair, box] : boxes) {
     PartOverlap overlap{pair[0], pair[1], std::numeric_limits<double>::infinity(), {}};
     for (std::size_t k = 0; k < 3; ++k) {
       overlap.depth = std::min(overlap.depth, box.high[k] - box.low[k]);
-      overlap.where[k] = box.low[k] / 2 + box.high[k] / 2;
+      overlap.where[k] = box.centre(k);
     }
     overlaps.push_back(overlap);
   }

@@ -6,7 +6,7 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kFirstScratch = 256;
+constexpr std::size_t kFirstScratch = 256;  // more than most boundaries need; it grows
 
 // Euler's relation for a sphere of triangles.
 std::size_t vertices_of(std::size_t faces) { return faces / 2 + 2; }

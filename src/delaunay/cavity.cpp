@@ -6,7 +6,7 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kFirstScratch = 256;
+constexpr std::size_t kFirstScratch = 256;  // more than most cavities need; it grows
 constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
 
 std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }

@@ -8,8 +8,8 @@
 //
 // Error bound of f (e = 2^-53; all differences, products and sums relative to the exact coordinates).
 // The components of a computed cross product are off by at most 4 e times the sum of the absolute
-// products, the vector by 4 sqrt(2) e |v||w| < 6 e |v||w|. Hence
-// N is computed as |u|^2 (v x w) + u x (|w|^2 v - |v|^2 w). Hence
+// products, the vector by 4 sqrt(2) e |v||w| < 6 e |v||w|. N is computed as
+// |u|^2 (v x w) + u x (|w|^2 v - |v|^2 w). Hence
 //     |dN| <= (6 + 6) e |u|^2 |v||w| + (12 + 7) e |u| (|w|^2 |v| + |v|^2 |w|) + ... <= 54 e |u||v||w| R,
 //     |dD| <= (6 + 4) e |u||v||w|,   where R = max(|u|, |v|, |w|).
 // Let s = e |u||v||w| / D, which is at least e. A chord is no longer than the diameter: R <= |m|. So
@@ -25,7 +25,7 @@
 //
 // Underflow and overflow: reach is infinite, so that the test decides nothing, unless D >= 2^-200,
 // s <= 2^33 e and |m| <= 2^100. Then R <= 2^100, and no length is below 2^-400, so that |u||v||w| is
-// right and the bounds above exceed 2^-53-200-100, while a product below the normal range errs by at
+// right and the bounds above exceed 2^(-53-200-100), while a product below the normal range errs by at
 // most 2^-1074 times 2^300. In the test itself the same is met by the term 2^-960; an overflow makes
 // the comparison false.
 #pragma once

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "mesh/keys.h"
+#include "numbers/mix.h"
 
 namespace holdfast {
 
@@ -27,7 +28,7 @@ void EdgeLinks::by_hash(std::span<const CavityFace> faces, Cell* cells) {
   ++epoch_;
   const auto meet = [&](std::uint32_t a, std::uint32_t b, Face face) {
     const EdgeKey key = edge_key(a, b);
-    std::size_t h = (key * 0x9E3779B97F4A7C15ull) >> shift;
+    std::size_t h = (key * numbers::kGolden) >> shift;
     while (hash_[h].epoch == epoch_ && hash_[h].key != key) h = (h + 1) & (size - 1);
     if (hash_[h].epoch != epoch_) {
       hash_[h] = {key, face, epoch_};

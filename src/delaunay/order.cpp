@@ -10,6 +10,7 @@
 
 #include "mesh/large_array.h"
 #include "mesh/parallel.h"
+#include "numbers/mix.h"
 
 namespace holdfast {
 namespace {
@@ -23,16 +24,9 @@ constexpr unsigned kMostBits = 20;    // of the curve, an axis; leaves four bits
 constexpr unsigned kMostRounds = 15;  // fits those four bits
 constexpr unsigned kRoundShift = 3;   // a round holds 2^3 times the points of all rounds before it
 constexpr std::size_t kFirstRound = 256;
-constexpr std::size_t kLongRun =
-    kDuplicateDistance;                   // points in one cell of the grid that are worth another sort
+// Points in one cell of the grid that are worth another sort. Fewer may be duplicates at their distance.
+constexpr std::size_t kLongRun = kDuplicateDistance;
 constexpr std::size_t kLeastPart = 8192;  // entries that are worth a thread
-
-std::uint64_t scramble(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15ull;
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
-  return x ^ (x >> 31);
-}
 
 // Bits an axis that roughly separate n points on a surface. Runs that still share a cell are sorted again in
 // a grid of their own.
@@ -189,9 +183,9 @@ InsertionOrder insertion_order(std::span<const Point> points, std::uint64_t seed
   for (std::size_t m = n; m > kFirstRound && rounds < kMostRounds; m >>= kRoundShift) ++rounds;
   LargeArray<Entry> array(n);
   const std::span<Entry> entries(array.data(), n);
-  const std::uint64_t salt = scramble(seed);
+  const std::uint64_t salt = numbers::mixed(seed);
   const auto round_of = [&](std::size_t point) {
-    const auto zeros = static_cast<unsigned>(std::countr_zero(scramble(point ^ salt)));
+    const auto zeros = static_cast<unsigned>(std::countr_zero(numbers::mixed(point ^ salt)));
     return rounds - std::min(zeros / kRoundShift, rounds);
   };
   parallel_ranges(threads, n, [&](std::size_t first, std::size_t last) {

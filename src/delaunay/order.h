@@ -23,6 +23,6 @@ struct InsertionOrder {
 [[nodiscard]] InsertionOrder insertion_order(std::span<const Point> points, std::uint64_t seed,
                                              const Threads& threads = 1);
 
-inline constexpr std::size_t kDuplicateDistance = 16;
+inline constexpr std::size_t kDuplicateDistance = 16;  ///< a schedule looks back so far for equal points
 
 }  // namespace holdfast

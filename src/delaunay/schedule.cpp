@@ -91,12 +91,32 @@ class Schedule {
   // Returns the remaining points.
   std::vector<Vertex> run_phase(const std::vector<Slab>& slabs, const std::vector<Vertex>& points) {
     triangulation_.expect_points(points.size(), threads_.count());
+    const Tet before = inserters_[0]->last();
+    const std::vector<char> entered = enter_all(slabs, points);
+    std::vector<Vertex> left = run_slabs(slabs, entered, points);
+    triangulation_.settle_slots();
+    // The next walk starts at a cell that an inserter left, since the one before may be gone.
+    const auto valid =
+        static_cast<std::size_t>(std::find(entered.begin(), entered.end(), 1) - entered.begin());
+    inserters_[0]->set_last(valid == entered.size() ? before : inserters_[valid]->last());
+    return left;
+  }
+
+  // By slab, whether its inserter can start there.
+  [[nodiscard]] std::vector<char> enter_all(const std::vector<Slab>& slabs,
+                                            const std::vector<Vertex>& points) const {
     std::vector<char> entered(slabs.size(), 0);
     Tet from = inserters_[0]->last();
     for (std::size_t k = 0; k < slabs.size(); ++k) {
       entered[k] = enter(*inserters_[k], slabs[k], points, from);
       if (entered[k] != 0) from = inserters_[k]->last();
     }
+    return entered;
+  }
+
+  // Returns the remaining points, in order.
+  std::vector<Vertex> run_slabs(const std::vector<Slab>& slabs, const std::vector<char>& entered,
+                                const std::vector<Vertex>& points) {
     std::vector<std::vector<Vertex>> left(slabs.size());
     std::atomic<bool> stop = false;
     parallel(threads_, slabs.size(), [&](std::size_t k) {
@@ -107,11 +127,6 @@ class Schedule {
         throw;
       }
     });
-    triangulation_.settle_slots();
-    const auto valid = std::find(entered.begin(), entered.end(), 1);
-    inserters_[0]->set_last(valid == entered.end()
-                                ? from
-                                : inserters_[static_cast<std::size_t>(valid - entered.begin())]->last());
     std::vector<Vertex> all;
     for (const auto& vertices : left) all.insert(all.end(), vertices.begin(), vertices.end());
     std::sort(all.begin(), all.end());

@@ -67,30 +67,35 @@ void Triangulation::read_sites(std::span<const Point> points, const Threads& thr
 }
 
 bool Triangulation::start() {
-  const auto n = static_cast<Vertex>(size());
-  const auto move_to = [this](Vertex from, Vertex to) {
-    auto& points = order_.points;
-    std::rotate(points.begin() + to, points.begin() + from, points.begin() + from + 1);
-    std::rotate(&sites_[to], &sites_[from], &sites_[from] + 1);
-    for (std::size_t& end : order_.ends)
-      if (to < end && end <= from) ++end;
-  };
-  const auto find = [&](Vertex rank, auto fits) {
-    Vertex k = rank;
-    while (k < n && !fits(k)) ++k;
-    if (k < n) move_to(k, rank);
-    return k < n;
-  };
-  if (n < 4) return false;
-  if (!find(1, [&](Vertex k) { return !equal(at(0), at(k)); })) return false;
-  if (!find(2, [&](Vertex k) { return !collinear(at(0), at(1), at(k)); })) return false;
-  if (!find(3, [&](Vertex k) { return exact::orient3d(at(0), at(1), at(2), at(k)) != 0; })) return false;
+  const auto is_apart = [this](Vertex k) { return !equal(at(0), at(k)); };
+  const auto is_off_line = [this](Vertex k) { return !collinear(at(0), at(1), at(k)); };
+  const auto is_off_plane = [this](Vertex k) { return exact::orient3d(at(0), at(1), at(2), at(k)) != 0; };
+  if (size() < 4 || !choose(1, is_apart) || !choose(2, is_off_line) || !choose(3, is_off_plane)) return false;
   if (exact::orient3d(at(0), at(1), at(2), at(3)) < 0) {
     std::swap(order_.points[0], order_.points[1]);
     std::swap(sites_[0], sites_[1]);
   }
   make_first_cells();
   return true;
+}
+
+// Makes the first vertex from `rank` on that fits vertex `rank`; false if none does.
+template <typename Fits>
+bool Triangulation::choose(Vertex rank, const Fits& fits) {
+  Vertex k = rank;
+  while (k < size() && !fits(k)) ++k;
+  if (k == size()) return false;
+  move_forward(k, rank);
+  return true;
+}
+
+// The vertices in between move back by one, and the ends of rounds with them.
+void Triangulation::move_forward(Vertex from, Vertex to) {
+  auto& points = order_.points;
+  std::rotate(points.begin() + to, points.begin() + from, points.begin() + from + 1);
+  std::rotate(&sites_[to], &sites_[from], &sites_[from] + 1);
+  for (std::size_t& end : order_.ends)
+    if (to < end && end <= from) ++end;
 }
 
 // Cell 0 and ghost 1 + i beyond face i. Seen from outside, the face's vertices turn the other way.

@@ -98,6 +98,9 @@ class Triangulation {
 
  private:
   void read_sites(std::span<const Point> points, const Threads& threads);
+  template <typename Fits>
+  bool choose(Vertex rank, const Fits& fits);
+  void move_forward(Vertex from, Vertex to);
   void make_first_cells();
   [[nodiscard]] const Cell& sphere_of(const Cell& cell) const;
   [[nodiscard]] int conflict_sign(const Cell& cell, const double* q) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
-#include <variant>
+#include <utility>
 
 #include "enforce/fictitious_cut.h"
 #include "enforce/polygon.h"
@@ -16,19 +16,17 @@
 namespace holdfast {
 namespace {
 
-using Triangle3 = std::array<Vertex, 3>;
-
 // A polygon of constraint faces through P: its corners in the plane without P, and its triangles, which have
 // the same orientation as the corners.
 struct Cut {
   std::vector<Vertex> path;
   bool facet = true;  // else fictitious
-  std::vector<Triangle3> triangles;
+  std::vector<Triangle> triangles;
 };
 
 // A connected part of the link between the cuts.
 struct Sector {
-  std::vector<Triangle3> faces;  // orient(f, P) > 0
+  std::vector<Triangle> faces;  // orient(f, P) > 0
   struct Side {
     std::size_t cut;
     bool along;  // whether the cut's triangles, as oriented, see the sector's inside positively
@@ -50,9 +48,9 @@ class BallCutter {
       for (std::size_t k = 0; k + 1 < path.size(); ++k)
         fictitious_edges_.push_back(ascending(Edge{path[k], path[k + 1]}));
     }
-    flood_sectors();
+    find_sectors();
     for (std::size_t c = 0; c < cuts_.size(); ++c)
-      cuts_[c].triangles = triangulate_polygon(mesh_, cuts_[c].path, above_[c]);
+      cuts_[c].triangles = triangulate_polygon(mesh_, cuts_[c].path, above_[c].vertex);
   }
 
   [[nodiscard]] const std::vector<Tet>& tets() const { return tets_; }
@@ -70,17 +68,11 @@ class BallCutter {
         const Edge e = link_edge(t, w);
         next_[e[0]].push_back(e[1]);  // the tetrahedron on the other side adds the reverse
       }
-    for (auto& [v, to] : next_) {
-      sort_unique(to);
-    }
+    for (auto& [v, to] : next_) sort_unique(to);
   }
 
   // The link edge of t opposite w, directed like t's link face: orient(e0, e1, w, P) > 0.
-  [[nodiscard]] Edge link_edge(Tet t, Vertex w) const {
-    const auto& rs = kOpposite[static_cast<std::size_t>(mesh_.index_of(t, w))]
-                              [static_cast<std::size_t>(mesh_.index_of(t, p_))];
-    return {mesh_.corner(t, rs[0]), mesh_.corner(t, rs[1])};
-  }
+  [[nodiscard]] Edge link_edge(Tet t, Vertex w) const { return mesh_.opposite_edge(t, w, p_); }
 
   void trace_cycle() {
     if (next_.empty()) throw std::logic_error("holdfast: no facet through a facet point");
@@ -89,12 +81,8 @@ class BallCutter {
     Vertex previous = kNone;
     Vertex v = start;
     do {
-      const auto& to = next_.at(v);
-      if (to.size() != 2) throw std::logic_error("holdfast: the facet faces at a facet point are no disc");
       cut.path.push_back(v);
-      const Vertex following = to[0] != previous ? to[0] : to[1];
-      previous = v;
-      v = following;
+      previous = std::exchange(v, following(previous, v));
     } while (v != start);
     if (cut.path.size() != next_.size()) throw std::logic_error("holdfast: two facets through a facet point");
     cuts_.push_back(std::move(cut));
@@ -111,19 +99,36 @@ class BallCutter {
       Vertex v = first;
       while (v != b) {
         cut.path.push_back(v);
-        const auto& to = next_.at(v);
-        if (to.size() != 2) throw std::logic_error("holdfast: the facet faces at a segment point are no fan");
-        const Vertex following = to[0] != previous ? to[0] : to[1];
-        previous = v;
-        v = following;
+        previous = std::exchange(v, following(previous, v));
       }
       cut.path.push_back(b);
       cuts_.push_back(std::move(cut));
     }
   }
 
-  void flood_sectors() {
-    std::map<Edge, Sector::Side> side_of;  // directed edge of a cut -> the side on which it bounds a sector
+  // The vertex after v on the border of the facet faces at P, coming from `previous`.
+  [[nodiscard]] Vertex following(Vertex previous, Vertex v) const {
+    const auto& to = next_.at(v);
+    if (to.size() != 2)
+      throw std::logic_error(ends_ ? "holdfast: the facet faces at a segment point are no fan"
+                                   : "holdfast: the facet faces at a facet point are no disc");
+    return to[0] != previous ? to[0] : to[1];
+  }
+
+  void find_sectors() {
+    const SidesOfEdges side_of = sides_of_cut_edges();
+    above_.assign(cuts_.size(), {});
+    for (const Tet t : tets_) mesh_.mark_visited(t);  // marked: in the ball, not yet in a sector
+    for (const Tet seed : tets_)
+      if ((mesh_.flags(seed) & kVisited) != 0) sectors_.push_back(flood(seed, side_of));
+    check_sectors();
+  }
+
+  // By directed edge of a cut: the side of the cut on which the edge bounds a sector.
+  using SidesOfEdges = std::map<Edge, Sector::Side>;
+
+  [[nodiscard]] SidesOfEdges sides_of_cut_edges() const {
+    SidesOfEdges side_of;
     for (std::size_t c = 0; c < cuts_.size(); ++c) {
       const auto& path = cuts_[c].path;
       const std::size_t edges = ends_ ? path.size() - 1 : path.size();
@@ -135,37 +140,35 @@ class BallCutter {
         side_of[{s, r}] = {c, true};
       }
     }
-    above_.assign(cuts_.size(), kNone);
-    std::vector<double> height(cuts_.size(), -1);
-    for (const Tet t : tets_) mesh_.mark_visited(t);  // marked: in the ball, not yet in a sector
-    for (const Tet seed : tets_) {
-      if ((mesh_.flags(seed) & kVisited) == 0) continue;
-      Sector sector;
-      std::vector<Tet> stack{seed};
-      mesh_.clear_visited(seed);
-      while (!stack.empty()) {
-        const Tet t = stack.back();
-        stack.pop_back();
-        sector.faces.push_back(mesh_.face_vertices(face_code(t, mesh_.index_of(t, p_))));
-        for (int i = 0; i < 4; ++i) {
-          const Vertex w = mesh_.corner(t, i);
-          if (w == p_) continue;
-          const Edge e = link_edge(t, w);
-          if (is_cut(t, i, e)) {
-            const Sector::Side side = side_of.at(e);
-            add_side(sector, side);
-            if (side.along) note_above(side.cut, e, w, height);
-            continue;
-          }
-          const Tet n = tet_of(mesh_.neighbour(t, i));
-          if ((mesh_.flags(n) & kVisited) == 0) continue;
-          mesh_.clear_visited(n);
-          stack.push_back(n);
+    return side_of;
+  }
+
+  // The sector of a tetrahedron of the ball: all that can be reached without crossing a cut.
+  Sector flood(Tet seed, const SidesOfEdges& side_of) {
+    Sector sector;
+    std::vector<Tet> stack{seed};
+    mesh_.clear_visited(seed);
+    while (!stack.empty()) {
+      const Tet t = stack.back();
+      stack.pop_back();
+      sector.faces.push_back(mesh_.face_vertices(face_code(t, mesh_.index_of(t, p_))));
+      for (int i = 0; i < 4; ++i) {
+        const Vertex w = mesh_.corner(t, i);
+        if (w == p_) continue;
+        const Edge e = link_edge(t, w);
+        if (is_cut(t, i, e)) {
+          const Sector::Side side = side_of.at(e);
+          add_side(sector, side);
+          if (side.along) note_above(side.cut, e, w);
+          continue;
         }
+        const Tet n = tet_of(mesh_.neighbour(t, i));
+        if ((mesh_.flags(n) & kVisited) == 0) continue;
+        mesh_.clear_visited(n);
+        stack.push_back(n);
       }
-      sectors_.push_back(std::move(sector));
     }
-    check_sectors();
+    return sector;
   }
 
   [[nodiscard]] bool is_cut(Tet t, int face, const Edge& link_edge) const {
@@ -181,11 +184,10 @@ class BallCutter {
 
   // Notes a vertex strictly off the cut's plane, as far away as possible; the turns of the polygon are
   // computed from it.
-  void note_above(std::size_t cut, const Edge& e, Vertex w, std::vector<double>& height) {
-    const double h = height_over(mesh_, e[0], e[1], p_, w);
-    if (above_[cut] != kNone && h <= height[cut]) return;
-    above_[cut] = w;
-    height[cut] = h;
+  void note_above(std::size_t cut, const Edge& e, Vertex w) {
+    const double height = height_over(mesh_, e[0], e[1], p_, w);
+    if (above_[cut].vertex != kNone && height <= above_[cut].height) return;
+    above_[cut] = {w, height};
   }
 
   void check_sectors() const {
@@ -202,7 +204,11 @@ class BallCutter {
   std::map<Vertex, std::vector<Vertex>> next_;
   std::vector<Edge> fictitious_edges_;
   std::vector<Cut> cuts_;
-  std::vector<Vertex> above_;
+  struct Above {
+    Vertex vertex = kNone;
+    double height = 0;
+  };
+  std::vector<Above> above_;  // by cut: a vertex strictly off its plane
   std::vector<Sector> sectors_;
 };
 
@@ -224,7 +230,7 @@ std::vector<Vertex> cut_and_cone(TetMesh& mesh, Vertex p, std::optional<std::arr
       ends ? fictitious_cuts(mesh, p, *ends, created) : std::vector<CutPath>{};
   const BallCutter cutter(mesh, p, ends, fictitious);
   std::vector<TetMesh::Corners> fresh;
-  std::vector<Triangle3> facets;
+  std::vector<Triangle> facets;
   for (const Sector& sector : cutter.sectors()) {
     const Kernel kernel = kernel_of(mesh, sector, cutter.cuts());
     Vertex apex = best_apex(mesh, kernel);

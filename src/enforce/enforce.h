@@ -31,9 +31,8 @@ struct EnforceStats {
 /// Makes every facet one face and every segment one edge of the mesh, by partition and elimination. Points
 /// moved off the constraints are suppressed or recentred along the way.
 ///
-/// `standing` holds the constraints that stand before; all stand afterwards. Vertices 0 .. first_free-1 are
-/// the input's and the box's. In exact arithmetic this cannot fail on a valid complex.
-EnforceStats enforce(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
-                     Standing& standing, Vertex first_free, const EnforceOptions& options, Monitor& monitor);
-
+/// All constraints stand afterwards. Vertices 0 .. first_free-1 are the input's and the box's. In exact
+/// arithmetic this cannot fail on a valid complex. Throws Interrupted through the monitor.
+EnforceStats enforce(TetMesh& mesh, const ConstraintSet& constraints, Vertex first_free,
+                     const EnforceOptions& options, Monitor& monitor);
 }  // namespace holdfast

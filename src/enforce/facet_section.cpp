@@ -65,11 +65,7 @@ class Flood {
     std::vector<Tet> ring;
     shell(mesh_, first, a, b, ring);
     for (const Tet t : ring) {
-      const auto ia = static_cast<std::size_t>(mesh_.index_of(t, a));
-      const auto ib = static_cast<std::size_t>(mesh_.index_of(t, b));
-      const auto& cd = kOpposite[ia][ib];
-      const Vertex c = mesh_.corner(t, cd[0]);
-      const Vertex d = mesh_.corner(t, cd[1]);
+      const auto [c, d] = mesh_.opposite_edge(t, a, b);
       if (mesh_.orient(a, b, inside, d) <= 0) continue;
       const int above_c = mesh_.orient(a, b, c, inside);
       if (above_c > 0) {
@@ -77,7 +73,7 @@ class Flood {
         return;
       }
       if (above_c == 0) {
-        add_face(face_code(t, cd[1]));
+        add_face(face_code(t, mesh_.index_of(t, d)));
         return;
       }
     }
@@ -116,8 +112,7 @@ class Flood {
       if (s[i] == 0 && s[j] == 0) {
         add_edge(a, b, t);
       } else if (s[i] * s[j] < 0 && seen_edges_.insert(edge_key(a, b)).second) {
-        section_.piercing.push_back(s[i] > 0 ? FacetSection::PiercingEdge{a, b, t}
-                                             : FacetSection::PiercingEdge{b, a, t});
+        section_.piercing.push_back(s[i] > 0 ? PiercingEdge{a, b, t} : PiercingEdge{b, a, t});
       }
     }
     for (int i = 0; i < 4; ++i) {
@@ -136,12 +131,10 @@ class Flood {
     std::vector<Tet> ring;
     shell(mesh_, e.tet, e.a, e.b, ring);
     for (const Tet t : ring) {
-      const auto& cd = kOpposite[static_cast<std::size_t>(mesh_.index_of(t, e.a))]
-                                [static_cast<std::size_t>(mesh_.index_of(t, e.b))];
-      const int c = sign(mesh_.corner(t, cd[0]));
-      const int d = sign(mesh_.corner(t, cd[1]));
-      if (c * d < 0) add_tet(t);
-      if (c == 0) add_face(face_code(t, cd[1]));
+      const auto [c, d] = mesh_.opposite_edge(t, e.a, e.b);
+      const int of_c = sign(c), of_d = sign(d);
+      if (of_c * of_d < 0) add_tet(t);
+      if (of_c == 0) add_face(face_code(t, mesh_.index_of(t, d)));
     }
   }
 

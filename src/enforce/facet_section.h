@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "recover/pierce.h"
 
 namespace holdfast {
 
@@ -16,10 +17,6 @@ struct FacetFrame {
 };
 
 struct FacetSection {
-  struct PiercingEdge {
-    Vertex above, below;  ///< strictly on either side of the facet's plane; above sees it positively
-    Tet tet;              ///< one of its shell
-  };
   std::vector<Face> faces;             ///< mesh faces inside the facet, one code each
   std::vector<PiercingEdge> piercing;  ///< each edge once
   std::vector<Vertex> inner;           ///< mesh vertices strictly inside the facet

@@ -49,8 +49,8 @@ class CutMaker {
     collect_facet_directions();
     std::vector<CutPath> cuts;
     while (facet_fans_ + cuts.size() < 2) {
-      std::optional<CutPath> cut = way_one();
-      if (!cut) cut = way_three();
+      std::optional<CutPath> cut = through_link_vertex();
+      if (!cut) cut = through_new_vertex();
       for (std::size_t k = 0; k + 1 < cut->size(); ++k)
         taken_.push_back(ascending(Edge{(*cut)[k], (*cut)[k + 1]}));
       directions_.push_back(across((*cut)[1]));
@@ -117,7 +117,8 @@ class CutMaker {
     return worst;
   }
 
-  std::optional<CutPath> way_one() {
+  // Way 1.
+  std::optional<CutPath> through_link_vertex() {
     const std::vector<Vertex> at_a = shell_link(a_);
     const std::vector<Vertex> at_b = shell_link(b_);
     std::vector<Vertex> both;
@@ -136,7 +137,8 @@ class CutMaker {
     return CutPath{a_, best, b_};
   }
 
-  std::optional<CutPath> way_three() {
+  // Way 2.
+  CutPath through_new_vertex() {
     const HalfPlane plane = choose_half_plane();
     const std::size_t middle = plane.crossed.size() / 2;
     const Vertex w = put_vertex(plane, middle);
@@ -256,10 +258,7 @@ class CutMaker {
     std::vector<Tet> ring;
     shell(mesh_, find_edge(mesh_, a_, p_), a_, p_, ring);
     for (const Tet t : ring) {
-      const auto& cd = kOpposite[static_cast<std::size_t>(mesh_.index_of(t, a_))]
-                                [static_cast<std::size_t>(mesh_.index_of(t, p_))];
-      const Vertex c = mesh_.corner(t, cd[0]);
-      const Vertex d = mesh_.corner(t, cd[1]);
+      const auto [c, d] = mesh_.opposite_edge(t, a_, p_);
       if (mesh_.orient(a_, p_, c, plane.ref()) > 0 && mesh_.orient(p_, a_, d, plane.ref()) > 0)
         return follow(plane, t, {c, d});
     }

@@ -5,8 +5,8 @@
 #include "enforce/tuning.h"
 #include "mesh/traverse.h"
 #include "numbers/sorted.h"
-#include "suppress/collapse.h"
 #include "suppress/degree.h"
+#include "suppress/remove_or_recentre.h"
 
 namespace holdfast {
 

@@ -10,8 +10,8 @@ namespace holdfast::tuning {
 
 // Flips that are tried again before a constraint is cut. Sign tests, roughly, at a crossing.
 inline constexpr FlipRecovery::Effort kRetry{.depth = Flipper::kDeep, .budget = 2000, .thorough = true};
-inline constexpr std::size_t kManyCrossing =
-    300;  ///< tetrahedra across a facet: from there on its cavities cost less than flips
+/// Tetrahedra across a facet: from there on its cavities cost less than flips.
+inline constexpr std::size_t kManyCrossing = 300;
 inline constexpr int kCavityTries = 3;  ///< after the first, each with the points in the facet's plane moved
 
 // Steiner points that are suppressed or recentred between one constraint and the next.

@@ -79,6 +79,10 @@ inline constexpr std::array<std::array<std::array<int, 2>, 4>, 4> kOpposite{{
     {{{2, 1}, {0, 2}, {1, 0}, {-1, -1}}},
 }};
 
+inline constexpr const std::array<int, 2>& opposite_corners(int a, int b) {
+  return kOpposite[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+}
+
 inline constexpr Flags facet_bit(int face) { return static_cast<Flags>(1u << face); }
 inline constexpr Flags segment_bit(int edge) { return static_cast<Flags>(1u << (4 + edge)); }
 inline constexpr Flags kFacetBits = 0x000F;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "numbers/mix.h"
 #include "numbers/sorted.h"
 
 namespace holdfast {
@@ -20,7 +21,7 @@ void CavityPlan::Constraints::add_segments_of(const TetMesh& mesh, Tet t) {
     if ((f & segment_bit(k)) != 0) add_segment(edge_key(mesh.corners(t), k));
 }
 
-void CavityPlan::Constraints::tidy() {
+void CavityPlan::Constraints::sort() {
   std::sort(facets_.begin(), facets_.end());
   sort_unique(segments_);
 }
@@ -51,15 +52,15 @@ CavityPlan::CavityPlan(TetMesh& mesh, const Replacement& r, Scratch& memory)
   std::size_t n = 16;
   while (n < 3 * (r.old_tets.size() + r.new_tets.size())) n *= 2;
   slots_.resize(n);
-  look_at_cavity();
+  read_cavity();
   for (const auto& f : r.facets) constraints_.add_facet(face_key(f));
   for (const auto& e : r.segments) constraints_.add_segment(edge_key(e[0], e[1]));
-  constraints_.tidy();
+  constraints_.sort();
   match_faces();
   set_flags();
 }
 
-void CavityPlan::look_at_cavity() {
+void CavityPlan::read_cavity() {
   for (const Tet t : replacement_.old_tets) mesh_.mark_visited(t);
   for (const Tet t : replacement_.old_tets) {
     const Marks marks = marks_of(mesh_.corners(t));
@@ -103,7 +104,7 @@ void CavityPlan::set_flags() {
 
 CavityPlan::Marks CavityPlan::marks_of(const TetMesh::Corners& c) {
   const auto mixed = [](Vertex v) {
-    const std::uint64_t h = (v + 1ull) * 0x9E3779B97F4A7C15ull;
+    const std::uint64_t h = (v + 1ull) * numbers::kGolden;
     return h ^ (h >> 29);
   };
   const Marks of{mixed(c[0]), mixed(c[1]), mixed(c[2]), mixed(c[3])};

@@ -15,6 +15,7 @@
 #include "mesh/keys.h"
 #include "mesh/scratch.h"
 #include "mesh/tet_mesh.h"
+#include "numbers/mix.h"
 
 namespace holdfast {
 
@@ -53,15 +54,13 @@ class CavityPlan {
       seen_ |= bit_of(key);
     }
     void add_segments_of(const TetMesh& mesh, Tet t);
-    /// Once all are added.
-    void tidy();
+    /// Once all are added, before bits() is called.
+    void sort();
     [[nodiscard]] Flags bits(const TetMesh::Corners& c) const;
 
    private:
     // One of 64 bits, so that few edges but segments are looked for in the list.
-    static std::uint64_t bit_of(EdgeKey key) {
-      return std::uint64_t{1} << (key * 0x9E3779B97F4A7C15ull >> 58);
-    }
+    static std::uint64_t bit_of(EdgeKey key) { return std::uint64_t{1} << (key * numbers::kGolden >> 58); }
     [[nodiscard]] bool holds_segment(EdgeKey key) const;
 
     ScratchVector<FaceKey> facets_;
@@ -82,7 +81,7 @@ class CavityPlan {
   };
 
   static Marks marks_of(const TetMesh::Corners& c);
-  void look_at_cavity();
+  void read_cavity();
   void match_faces();
   void set_flags();
   Face partner_of(Face face, std::uint64_t mark);

@@ -56,6 +56,12 @@ struct Ratio {
   }
 };
 
+Polytope::Range range_of_coordinate(const Polytope& polytope, std::size_t axis) {
+  IntegerVector form{};
+  form[axis] = 1;
+  return polytope.range(form);
+}
+
 // The range of the kernel's coordinates among the powers of two.
 struct Span {
   std::int64_t coarsest = 0, finest = 0;  // exponents of the spacing of doubles
@@ -95,6 +101,7 @@ class Search {
 
  private:
   static constexpr std::size_t kBoxSides = 6;
+  static constexpr std::size_t kMostParts = 100;  // every cut makes two; few kernels cross many powers of two
 
   // orient(f0, f1, f2, x) = n.(x - f0), where n is the cross product of two sides; -n.x < -n.f0 is wanted.
   void add_face(const std::array<ExactPoint, 3>& f) {
@@ -130,8 +137,13 @@ class Search {
     if (auto found = on_lattice(polytope, coarsest)) return found;
     if (coarsest == finest || !is_complete_) return std::nullopt;
     if (!on_lattice(polytope, finest) && is_complete_) return std::nullopt;
-    is_complete_ =
-        true;  // the search on the finest lattice need not be complete: the parts have lattices of their own
+    // The search on the finest lattice need not be complete: the parts have lattices of their own.
+    is_complete_ = true;
+    return search_parts(polytope, spans);
+  }
+
+  // Cuts the polytope at a power of two, along the first axis whose coordinates cross one.
+  std::optional<Point> search_parts(const Polytope& polytope, const std::array<Span, 3>& spans) {
     const auto axis = static_cast<std::size_t>(
         std::find_if(spans.begin(), spans.end(), [](const Span& s) { return s.coarsest != s.finest; }) -
         spans.begin());
@@ -145,9 +157,7 @@ class Search {
   }
 
   [[nodiscard]] Span span_along(const Polytope& polytope, std::size_t axis) const {
-    IntegerVector form{};
-    form[axis] = 1;
-    const Polytope::Range range = polytope.range(form);
+    const Polytope::Range range = range_of_coordinate(polytope, axis);
     const Ratio low{range.low, range.low_divisor}, high{range.high, range.high_divisor};
     Span out{grid_, grid_, 0, true};
     if (low.x.sign() == 0 && high.x.sign() == 0) return out;
@@ -178,9 +188,7 @@ class Search {
   std::optional<Point> on_lattice(const Polytope& polytope, const std::array<std::int64_t, 3>& spacing) {
     std::vector<BigInt> low(3), high(3);
     for (std::size_t k = 0; k < 3; ++k) {
-      IntegerVector form{};
-      form[k] = 1;
-      Polytope::Range range = polytope.range(form);
+      Polytope::Range range = range_of_coordinate(polytope, k);
       const std::int64_t finer = unit_ - spacing[k];
       if (finer >= 0) {
         range.low = shifted(range.low, finer);
@@ -220,7 +228,7 @@ class Search {
   std::int64_t grid_;      // no double of the mesh has a bit below 2^grid_
   std::int64_t unit_ = 0;  // the unit of the polytope's coordinates is 2^unit_
   std::vector<IntegerHalfSpace> faces_;
-  std::size_t parts_left_ = 100;
+  std::size_t parts_left_ = kMostParts;
   bool is_complete_ = true;
 };
 

@@ -46,8 +46,7 @@ bool gather_round(const Mesh& mesh, Tet t, Vertex a, Vertex b, EdgeShell& out, s
   out.tets.clear();
   out.link.clear();
   const Tet start = t;
-  int c = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
-                   [static_cast<std::size_t>(mesh.index_of(t, b))][0];
+  int c = opposite_corners(mesh.index_of(t, a), mesh.index_of(t, b))[0];
   Vertex p = mesh.corners(t)[static_cast<std::size_t>(c)];
   while (true) {
     if (out.tets.size() == most) return false;

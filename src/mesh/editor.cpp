@@ -78,31 +78,25 @@ Tet MeshEditor::add_tet(TetMesh::Corners v) {
   return t;
 }
 
-void MeshEditor::set_facet(Face f) {
+void MeshEditor::set_facet(Face f) { change_mark(f, &TetMesh::set_flags); }
+
+void MeshEditor::set_segment(Tet t, Vertex a, Vertex b) { change_mark(t, a, b, &TetMesh::set_flags); }
+
+void MeshEditor::release_facet(Face f) { change_mark(f, &TetMesh::clear_flags); }
+
+void MeshEditor::release_segment(Tet t, Vertex a, Vertex b) { change_mark(t, a, b, &TetMesh::clear_flags); }
+
+void MeshEditor::change_mark(Face f, ChangeOfFlags change) {
   const Face g = mesh_.neighbour(f);
-  mesh_.set_flags(tet_of(f), facet_bit(side_of(f)));
-  mesh_.set_flags(tet_of(g), facet_bit(side_of(g)));
+  (mesh_.*change)(tet_of(f), facet_bit(side_of(f)));
+  (mesh_.*change)(tet_of(g), facet_bit(side_of(g)));
   finish(std::array{tet_of(f), tet_of(g)});
 }
 
-void MeshEditor::set_segment(Tet t, Vertex a, Vertex b) {
+void MeshEditor::change_mark(Tet t, Vertex a, Vertex b, ChangeOfFlags change) {
   std::vector<Tet> tets;
   shell(mesh_, t, a, b, tets);
-  for (const Tet s : tets) mesh_.set_flags(s, segment_bit(mesh_.edge_of(s, a, b)));
-  finish(tets);
-}
-
-void MeshEditor::release_facet(Face f) {
-  const Face g = mesh_.neighbour(f);
-  mesh_.clear_flags(tet_of(f), facet_bit(side_of(f)));
-  mesh_.clear_flags(tet_of(g), facet_bit(side_of(g)));
-  finish(std::array{tet_of(f), tet_of(g)});
-}
-
-void MeshEditor::release_segment(Tet t, Vertex a, Vertex b) {
-  std::vector<Tet> tets;
-  shell(mesh_, t, a, b, tets);
-  for (const Tet s : tets) mesh_.clear_flags(s, segment_bit(mesh_.edge_of(s, a, b)));
+  for (const Tet s : tets) (mesh_.*change)(s, segment_bit(mesh_.edge_of(s, a, b)));
   finish(tets);
 }
 

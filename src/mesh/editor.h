@@ -176,6 +176,12 @@ class MeshEditor {
     if constexpr (kValidates) finish_ball(v);
   }
   void finish_ball(Vertex v);
+
+  // Sets or clears the mark of a facet on both sides, or of a segment in the whole shell.
+  using ChangeOfFlags = void (TetMesh::*)(Tet, Flags);
+  void change_mark(Face f, ChangeOfFlags change);
+  void change_mark(Tet t, Vertex a, Vertex b, ChangeOfFlags change);
+
   void put(const Change& change, std::span<Tet> slots);
   void undo_vertices(UndoLog& log, const UndoLog::Mark& mark);
 

@@ -47,7 +47,7 @@ class Tableau {
     std::array<double, kColumns> a;
     double b;
   };
-  static constexpr double kZero = 1e-12;
+  static constexpr double kZero = 1e-12;  // below it, an entry of the tableau is rounding
 
   [[nodiscard]] std::size_t entering(bool steepest) const {
     std::size_t best = kColumns;

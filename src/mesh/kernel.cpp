@@ -15,6 +15,10 @@ using exact::ExactPoint;
 using exact::PointRef;
 using ExactVector = std::array<Dyadic, 3>;
 
+// Besides the functions below, for exact vectors.
+using holdfast::cross;
+using holdfast::dot;
+
 ExactVector minus(const ExactPoint& a, const ExactPoint& b) {
   return {a.c[0] - b.c[0], a.c[1] - b.c[1], a.c[2] - b.c[2]};
 }
@@ -67,7 +71,69 @@ std::int64_t greatest_exponent(std::int64_t start, Good good) {
   return low;
 }
 
-struct View {  // an exact point as the predicates see it
+bool are_parallel(const ExactVector& n, const ExactVector& m) {
+  const ExactVector c = cross(n, m);
+  return c[0].sign() == 0 && c[1].sign() == 0 && c[2].sign() == 0;
+}
+
+ExactVector exact_normal(const TetMesh& mesh, const std::array<Vertex, 3>& f) {
+  const ExactPoint first = mesh.exact_position(f[0]);
+  return cross(minus(mesh.exact_position(f[1]), first), minus(mesh.exact_position(f[2]), first));
+}
+
+// The normal of a face: its cross product is n * scale * 2^exponent, which may be out of the range of
+// doubles.
+struct FaceNormal {
+  Vector n{};
+  double scale = 1;
+  std::int64_t exponent = 0;
+};
+
+// Differences are exact before they are rounded once. That is too coarse for the normal of a sliver, which is
+// computed from exact coordinates.
+FaceNormal normal_of(const TetMesh& mesh, const std::array<Vertex, 3>& f) {
+  constexpr double kSliver = 1e-4;  // the sine at a corner; above it a dozen digits are left
+  Vector u{}, w{};
+  exact::difference(mesh.point(f[1]), mesh.point(f[0]), u.data());
+  exact::difference(mesh.point(f[2]), mesh.point(f[0]), w.data());
+  const double su = largest(u), sw = largest(w);
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] /= su;
+    w[k] /= sw;
+  }
+  const Vector n = cross(u, w);
+  if (dot(n, n) > kSliver * kSliver) {
+    int exponent_u = 0, exponent_w = 0;
+    const double scale = std::frexp(su, &exponent_u) * std::frexp(sw, &exponent_w);
+    return {n, scale, std::int64_t{exponent_u} + exponent_w};
+  }
+  const ExactVector exact_n = exact_normal(mesh, f);
+  const std::int64_t top = top_exponent(exact_n);
+  const ExactVector near_one = scaled(exact_n, -top);
+  return {{near_one[0].to_double(), near_one[1].to_double(), near_one[2].to_double()}, 1, top};
+}
+
+// The normals, near one in size, of the planes of faces through a point of the kernel's closure, each once;
+// nothing if the point lies behind a face.
+std::optional<std::vector<ExactVector>> normals_at(const TetMesh& mesh,
+                                                   std::span<const std::array<Vertex, 3>> faces,
+                                                   PointRef origin) {
+  std::vector<ExactVector> normals;
+  for (const auto& f : faces) {
+    const int side = mesh.orient(f[0], f[1], f[2], origin);
+    if (side < 0) return std::nullopt;
+    if (side > 0) continue;
+    const ExactVector n = normalised(exact_normal(mesh, f));
+    const bool is_known = std::any_of(normals.begin(), normals.end(), [&](const ExactVector& m) {
+      return are_parallel(n, m) && dot(n, m).sign() > 0;
+    });
+    if (!is_known) normals.push_back(n);
+  }
+  return normals;
+}
+
+// An exact point as the predicates see it.
+struct View {
   explicit View(ExactPoint p) : exact(std::move(p)) {
     for (std::size_t k = 0; k < 3; ++k) approx[k] = exact.c[k].to_double();
   }
@@ -126,45 +192,26 @@ Kernel::Centre Kernel::centre(PointRef origin) const {
   return out;
 }
 
-// Differences are exact before they are rounded once. That is too coarse for the normal of a sliver, and for
-// kernels as thin as the spacing of doubles if the origin is next to the plane. In both cases the numbers are
-// computed from exact coordinates.
+// If the origin is next to the plane, the rounded distance is too coarse for kernels as thin as the spacing
+// of doubles. Then it is computed from exact coordinates, as a volume over an area.
 HalfSpace Kernel::half_space_over(const std::array<Vertex, 3>& f, PointRef origin, double unit) const {
-  constexpr double kNear = 1e-8, kSliver = 1e-4;
-  std::array<double, 3> u{}, w{}, a{};
-  exact::difference(mesh_.point(f[1]), mesh_.point(f[0]), u.data());
-  exact::difference(mesh_.point(f[2]), mesh_.point(f[0]), w.data());
+  constexpr double kNear = 1e-8;  // of the unit: half of a double's digits are left
+  const FaceNormal normal = normal_of(mesh_, f);
+  Vector a{};
   exact::difference(mesh_.point(f[0]), origin, a.data());
-  const double su = largest(u), sw = largest(w);
-  for (std::size_t k = 0; k < 3; ++k) {
-    u[k] /= su;
-    w[k] /= sw;
-    a[k] /= unit;
-  }
-  std::array<double, 3> n = cross(u, w);
-  // The true cross product is n times scale * 2^exponent, which may be out of the range of doubles.
-  int exponent_u = 0, exponent_w = 0, exponent_unit = 0;
-  double scale = std::frexp(su, &exponent_u) * std::frexp(sw, &exponent_w);
-  std::int64_t exponent = std::int64_t{exponent_u} + exponent_w;
-  if (!(dot(n, n) > kSliver * kSliver)) {
-    const ExactPoint first = mesh_.exact_position(f[0]);
-    const ExactVector exact_n =
-        cross(minus(mesh_.exact_position(f[1]), first), minus(mesh_.exact_position(f[2]), first));
-    const std::int64_t top = top_exponent(exact_n);
-    const ExactVector near_one = scaled(exact_n, -top);
-    for (std::size_t k = 0; k < 3; ++k) n[k] = near_one[k].to_double();
-    scale = 1;
-    exponent = top;
-  }
-  const double length = std::sqrt(dot(n, n));
+  for (double& x : a) x /= unit;
+
+  const double length = std::sqrt(dot(normal.n, normal.n));
   HalfSpace out;
-  for (std::size_t k = 0; k < 3; ++k) out.n[k] = -n[k] / length;
+  for (std::size_t k = 0; k < 3; ++k) out.n[k] = -normal.n[k] / length;
   out.b = dot(out.n, a);
   if (std::abs(out.b) > kNear) return out;
+
   const Dyadic volume = exact::determinant(mesh_.exact_position(f[0]), mesh_.exact_position(f[1]),
                                            mesh_.exact_position(f[2]), exact::lift(origin));
+  int exponent_unit = 0;
   const double unit_mantissa = std::frexp(unit, &exponent_unit);
-  out.b = volume.scaled(-exponent - exponent_unit).to_double() / scale / length / unit_mantissa;
+  out.b = volume.scaled(-normal.exponent - exponent_unit).to_double() / normal.scale / length / unit_mantissa;
   return out;
 }
 
@@ -184,7 +231,7 @@ std::optional<Point> Kernel::double_next_to(const Point& centre) const {
 // Far from the origin, rounded normals blur the centre of a thin kernel; seen from the centre itself it is
 // sharp.
 std::optional<Point> Kernel::double_at(PointRef origin, const Centre& centre) const {
-  constexpr double kThin = 1e-8;
+  constexpr double kThin = 1e-8;  // radius over size: half of a double's digits are left
   constexpr int kRefinements = 3;
   Point p{};
   for (std::size_t k = 0; k < 3; ++k) p[k] = origin.approx[k] + centre.offset[k];
@@ -199,9 +246,9 @@ std::optional<Point> Kernel::double_at(PointRef origin, const Centre& centre) co
 
 std::optional<Position> Kernel::on_grid(PointRef origin, const Centre& centre) const {
   const ExactPoint o = exact::lift(origin);
-  const int start = std::ilogb(centre.radius) - 1;
-  constexpr int kFiner = 4;
-  constexpr int kTries = 4;  // if more are needed, the guess itself is wrong
+  const int start = std::ilogb(centre.radius) - 1;  // of half the radius
+  constexpr int kFiner = 4;                         // bits
+  constexpr int kTries = 4;                         // if more are needed, the guess itself is wrong
   for (int k = 0; k < kTries; ++k) {
     ExactPoint p;
     for (std::size_t i = 0; i < 3; ++i)
@@ -215,44 +262,32 @@ std::optional<Position> Kernel::on_grid(PointRef origin, const Centre& centre) c
 // At most two different planes pass through the origin. All others leave room round it, so a short enough
 // step in a direction strictly above these two stays inside.
 std::optional<Position> Kernel::along_direction(PointRef origin, double size) const {
+  const std::optional<std::vector<ExactVector>> normals = normals_at(mesh_, faces_, origin);
+  if (!normals || normals->empty() || normals->size() > 2) return std::nullopt;
+  const ExactVector &first = normals->front(), &last = normals->back();
+  const bool is_one_plane = normals->size() == 1;
+  if (!is_one_plane && are_parallel(first, last)) return std::nullopt;  // opposite: nothing is above both
+  const ExactVector u = normalised(is_one_plane ? first : direction_above(first, last));
+
   const ExactPoint o = exact::lift(origin);
-  std::vector<ExactVector> normals;
-  for (const auto& f : faces_) {
-    const int side = mesh_.orient(f[0], f[1], f[2], origin);
-    if (side < 0) return std::nullopt;
-    if (side > 0) continue;
-    const ExactPoint a = mesh_.exact_position(f[0]);
-    const ExactVector n =
-        normalised(cross(minus(mesh_.exact_position(f[1]), a), minus(mesh_.exact_position(f[2]), a)));
-    const bool known = std::any_of(normals.begin(), normals.end(), [&](const ExactVector& m) {
-      const ExactVector c = cross(n, m);
-      return c[0].sign() == 0 && c[1].sign() == 0 && c[2].sign() == 0 && dot(n, m).sign() > 0;
-    });
-    if (!known) normals.push_back(n);
-  }
-  if (normals.empty() || normals.size() > 2) return std::nullopt;
-  const auto is_opposite = [](const ExactVector& n, const ExactVector& m) {
-    const ExactVector c = cross(n, m);
-    return c[0].sign() == 0 && c[1].sign() == 0 && c[2].sign() == 0;
-  };
-  if (normals.size() == 2 && is_opposite(normals[0], normals[1])) return std::nullopt;
-  const ExactVector u =
-      normalised(normals.size() == 1 ? normals[0] : direction_above(normals[0], normals[1]));
-  const auto step = [&](std::int64_t e) {
+  const auto step = [&](std::int64_t exponent) {
     ExactPoint p;
-    for (std::size_t i = 0; i < 3; ++i) p.c[i] = o.c[i] + u[i].scaled(e);
+    for (std::size_t i = 0; i < 3; ++i) p.c[i] = o.c[i] + u[i].scaled(exponent);
     return p;
   };
-  const auto inside = [&](std::int64_t e) { return holds(View(step(e)).ref()); };
+  const auto is_inside = [&](std::int64_t exponent) { return holds(View(step(exponent)).ref()); };
   constexpr double kLargest = std::numeric_limits<double>::max();
-  const std::int64_t e = greatest_exponent(size > 0 ? std::ilogb(std::min(size, kLargest)) : 0, inside);
-  for (std::int64_t grid = e - 2; grid > e - 64; grid -= 4) {  // few bits if few are enough
-    ExactPoint p = step(e - 1);
-    for (Dyadic& x : p.c) x = exact::rounded_to(x, grid);
+  const std::int64_t longest =
+      greatest_exponent(size > 0 ? std::ilogb(std::min(size, kLargest)) : 0, is_inside);
+  // Half of that step, rounded to as few bits as are enough: exact positions with many bits cost time.
+  constexpr std::int64_t kFirstBits = 2, kMoreBits = 4, kMostBits = 64;
+  for (std::int64_t bits = kFirstBits; bits < kMostBits; bits += kMoreBits) {
+    ExactPoint p = step(longest - 1);
+    for (Dyadic& x : p.c) x = exact::rounded_to(x, longest - bits);
     const View coarse(std::move(p));
     if (holds(coarse.ref())) return coarse.exact;
   }
-  return step(e);
+  return step(longest);
 }
 
 Kernel kernel_of_ball(const TetMesh& mesh, Vertex v, std::span<const Tet> tets) {

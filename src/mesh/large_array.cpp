@@ -10,7 +10,7 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kLine = 64;
+constexpr std::size_t kLine = 64;  // of a cache
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 constexpr std::size_t kLarge = 4 * kHugePage;
 
@@ -26,7 +26,7 @@ void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
   const std::size_t behind = (before + bytes) % page;
   if (first + behind < bytes) madvise(static_cast<char*>(block) + first, bytes - first - behind, advice);
 }
-constexpr std::size_t kPage = 4096;
+constexpr std::size_t kPage = 4096;  // where pages are larger, less is advised
 #endif
 
 }  // namespace

@@ -12,7 +12,46 @@
 
 namespace holdfast {
 
-using namespace std::chrono_literals;
+namespace {
+
+// Between two calls of the caller's function, and between two readings of the memory in use.
+constexpr std::chrono::milliseconds kInterval{20};
+
+// Ends all tasks when one of them throws. Keeps the first exception, because others may only follow from it.
+class FirstFailure {
+ public:
+  explicit FirstFailure(MonitoredTasks& tasks) : tasks_(tasks) {}
+
+  template <typename Body>
+  void guard(const Body& body) {
+    try {
+      body();
+    } catch (const Interrupted& interrupted) {
+      end_all(interrupted.outcome());
+      throw;
+    } catch (...) {
+      end_all(Outcome::cancelled);
+      throw;
+    }
+  }
+
+  void rethrow() const {
+    if (cause_) std::rethrow_exception(cause_);
+  }
+
+ private:
+  void end_all(Outcome why) {
+    std::call_once(first_, [&] { cause_ = std::current_exception(); });
+    tasks_.why = why;
+    tasks_.stop = true;
+  }
+
+  MonitoredTasks& tasks_;
+  std::once_flag first_;
+  std::exception_ptr cause_;
+};
+
+}  // namespace
 
 Monitor::Monitor(const Limits& limits, const std::function<bool(const Progress&)>& progress)
     : limits_(limits),
@@ -60,7 +99,7 @@ void Monitor::look_at_limits(std::chrono::steady_clock::time_point now, bool at_
   if (limits_.cancel && limits_.cancel->cancelled()) throw Interrupted(Outcome::cancelled);
   if (limits_.time_limit > 0 && std::chrono::duration<double>(now - start_).count() > limits_.time_limit)
     throw Interrupted(Outcome::time_limit);
-  if (limits_.memory_limit > 0 && (at_once || now - last_measured_ > 20ms)) {
+  if (limits_.memory_limit > 0 && (at_once || now - last_measured_ > kInterval)) {
     last_measured_ = now;
     if (resident_memory_bytes().value_or(0) > limits_.memory_limit) throw Interrupted(Outcome::memory_limit);
   }
@@ -71,7 +110,7 @@ void Monitor::call_back(Stage stage, double fraction, bool at_once) {
   overall_ = std::max(overall_, part_[0] + within * (part_[1] - part_[0]));
   if (!progress_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (!at_once && now - last_told_ < 20ms) return;
+  if (!at_once && now - last_told_ < kInterval) return;
   last_told_ = now;
   caller_threw_ = true;
   const bool go_on = progress_({stage, within, overall_});
@@ -97,38 +136,16 @@ void Monitor::look_as_task(Stage stage, double fraction) {
 void parallel_monitored(const Threads& threads, std::size_t count, Monitor& monitor,
                         std::array<double, 2> part, const std::function<void(std::size_t, Monitor&)>& task) {
   MonitoredTasks tasks{.count = count, .part = part, .stage = monitor.stage()};
-  std::once_flag first;
-  std::exception_ptr cause;  // exceptions of other tasks may only follow from it
-  const auto end_all = [&](Outcome why) {
-    std::call_once(first, [&] { cause = std::current_exception(); });
-    tasks.why = why;
-    tasks.stop = true;
-  };
-  const Threads polling = threads.polling([&] {
-    try {
-      monitor.poll_again();
-    } catch (...) {
-      end_all(Outcome::cancelled);
-      throw;
-    }
-  });
-  const auto run = [&](std::size_t k) {
-    Monitor own(monitor, tasks);
-    try {
-      task(k, own);
-    } catch (const Interrupted& interrupted) {
-      end_all(interrupted.outcome());
-      throw;
-    } catch (...) {
-      end_all(Outcome::cancelled);
-      throw;
-    }
-    ++tasks.done;
-  };
+  FirstFailure failure(tasks);
+  const Threads polling = threads.polling([&] { failure.guard([&] { monitor.poll_again(); }); });
   try {
-    parallel(polling, count, run);
+    parallel(polling, count, [&](std::size_t k) {
+      Monitor own(monitor, tasks);
+      failure.guard([&] { task(k, own); });
+      ++tasks.done;
+    });
   } catch (...) {
-    if (cause) std::rethrow_exception(cause);
+    failure.rethrow();
     throw;
   }
 }

@@ -71,7 +71,7 @@ class Monitor {
   std::chrono::steady_clock::time_point last_told_;
   std::chrono::steady_clock::time_point last_measured_;
   std::chrono::steady_clock::time_point last_looked_;
-  static constexpr unsigned kMostCallsALook = 16;
+  static constexpr unsigned kMostCallsALook = 16;  // the clock then takes little of the time
   unsigned calls_ = 0, calls_a_look_ = 1;
   std::array<double, 2> part_{0, 1};
   double fraction_ = 0, overall_ = 0;

@@ -29,7 +29,7 @@ struct Plain {
     return !(six_volumes >= thin * longest * longest * longest);
   }
   // The inradius is three volumes over the area.
-  [[nodiscard]] double quality() const { return kQualityOfRegular * longest * twice_area / six_volumes; }
+  [[nodiscard]] double quality() const { return kInradiusOfRegular * longest * twice_area / six_volumes; }
 };
 
 // None if the tetrahedron is too small or too large for plain arithmetic.
@@ -65,7 +65,7 @@ struct Careful {
     double twice_area = 0;
     for (const Vector& n : normals) twice_area += length(n);
     if (!(std::abs(six_volumes) > 0)) return std::numeric_limits<double>::infinity();
-    return kQualityOfRegular * std::sqrt(longest) * twice_area / std::abs(six_volumes);
+    return kInradiusOfRegular * std::sqrt(longest) * twice_area / std::abs(six_volumes);
   }
 
   // At an edge e between faces of normals m and n, m x n = 6 V e up to sign: the sine of the angle is as
@@ -101,7 +101,7 @@ Bounds bounds_of_quality(const Plain& plain) {
   constexpr double kRounding = 1e-14, kCare = 0.001;
   const double square = plain.longest * plain.longest;
   const double of_area = kRounding * square, of_volume = kRounding * square * plain.longest;
-  const double times = kQualityOfRegular * plain.longest;
+  const double times = kInradiusOfRegular * plain.longest;
   const double least_volume = plain.six_volumes - of_volume;
   return {(1 - kCare) * times * (plain.twice_area - of_area) / (plain.six_volumes + of_volume),
           least_volume > 0 ? (1 + kCare) * times * (plain.twice_area + of_area) / least_volume
@@ -111,25 +111,25 @@ Bounds bounds_of_quality(const Plain& plain) {
 // Bounds of Q by products only, which decide for most tetrahedra. No face is larger than an
 // equilateral triangle on the longest edge l, and any two faces together are at least as large as a third. So
 // with n, twice the area of abc: 2 n l <= Q 6V / (sqrt(6)/12) and Q <= sqrt(1/2) l^3 / 6V.
-enum class Told { below, not_below, neither };
-Told compared_by_products(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
+enum class Verdict { below, not_below, undecided };
+Verdict compared_by_products(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
   constexpr double kSmall = 1e-60, kLarge = 1e100;
   // Six volumes and n err by less than 30 and 10 eps times a cube and a square of l. Squares below these
   // parts of l^6 and l^4 may be meaningless.
   constexpr double kRoundedVolume = 1e-20, kRoundedArea = 1e-8;
-  constexpr double kCare = 1.01, kTwoAreas = 4 * kQualityOfRegular * kQualityOfRegular / kCare;
+  constexpr double kCare = 1.01, kTwoAreas = 4 * kInradiusOfRegular * kInradiusOfRegular / kCare;
   const Vector u = b - a, v = c - a, w = d - a;
   const Vector x = c - b, y = d - b, z = d - c;
   const double square = std::max({dot(u, u), dot(v, v), dot(w, w), dot(x, x), dot(y, y), dot(z, z)});
-  if (!(square > kSmall && square < kLarge)) return Told::neither;
+  if (!(square > kSmall && square < kLarge)) return Verdict::undecided;
   const Vector n = cross(u, v);
   const double six_volumes = dot(n, w), cubed = square * square * square, area = dot(n, n);
   const double of_volume = six_volumes * six_volumes;
-  if (of_volume > std::max(kRoundedVolume, kCare / 2 / (limit * limit)) * cubed) return Told::below;
+  if (of_volume > std::max(kRoundedVolume, kCare / 2 / (limit * limit)) * cubed) return Verdict::below;
   if (area > kRoundedArea * (square * square) &&
       kTwoAreas * square * area > limit * limit * std::max(of_volume, kRoundedVolume * cubed))
-    return Told::not_below;
-  return Told::neither;
+    return Verdict::not_below;
+  return Verdict::undecided;
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ double quality(const Point& a, const Point& b, const Point& c, const Point& d) {
 
 std::optional<double> quality_below(const Point& a, const Point& b, const Point& c, const Point& d,
                                     double limit) {
-  if (compared_by_products(a, b, c, d, limit) == Told::not_below) return std::nullopt;
+  if (compared_by_products(a, b, c, d, limit) == Verdict::not_below) return std::nullopt;
   const std::optional<Plain> plain = plain_of(a, b, c, d);
   double q = 0;
   if (plain && !plain->is_thinner_than(kThin)) {
@@ -160,8 +160,8 @@ std::optional<double> quality_below(const Point& a, const Point& b, const Point&
 }
 
 bool is_quality_below(const Point& a, const Point& b, const Point& c, const Point& d, double limit) {
-  const Told told = compared_by_products(a, b, c, d, limit);
-  if (told != Told::neither) return told == Told::below;
+  const Verdict verdict = compared_by_products(a, b, c, d, limit);
+  if (verdict != Verdict::undecided) return verdict == Verdict::below;
   if (const std::optional<Plain> plain = plain_of(a, b, c, d)) {
     if (!plain->is_thinner_than(kThin)) return plain->quality() < limit;
     const Bounds bounds = bounds_of_quality(*plain);

@@ -1,4 +1,4 @@
-// Quality of tetrahedra as the paper's §8 measures it.
+// Quality of tetrahedra as the paper defines (§6.4) and measures it (§8).
 //
 // Thin elements are what matters, so lengths, areas and volumes are right to a few digits however much their
 // terms cancel (careful.h).
@@ -12,7 +12,7 @@
 namespace holdfast {
 
 /// sqrt(6)/12: the inradius of a regular tetrahedron over its edge.
-inline constexpr double kQualityOfRegular = 0.20412414523193150;
+inline constexpr double kInradiusOfRegular = 0.20412414523193150;
 /// Q = sqrt(6)/12 * longest edge / inradius: 1 for a regular tetrahedron, infinite for a flat one, such as
 /// one whose distinct exact corners share a double.
 [[nodiscard]] double quality(const Point& a, const Point& b, const Point& c, const Point& d);

@@ -13,7 +13,7 @@ namespace holdfast {
 /// Hands out pieces of a buffer, and takes none back: what does not fit comes from the heap.
 class Scratch {
  public:
-  static constexpr std::size_t kBytes = 6144;
+  static constexpr std::size_t kBytes = 6144;  // enough for most cavities, and still small on a stack
 
   Scratch() = default;
   Scratch(const Scratch&) = delete;

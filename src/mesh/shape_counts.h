@@ -25,7 +25,7 @@ class CosineBins {
   }
 
  private:
-  static constexpr std::size_t kCells = 512;
+  static constexpr std::size_t kCells = 512;  // of cosines; most of them lie in one bin
   std::array<double, kBins - 1> end_{};       // of each bin, its cosine
   std::array<std::uint8_t, kCells> first_{};  // bin that may hold cosines of a cell
 };

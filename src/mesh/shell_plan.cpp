@@ -8,13 +8,13 @@ namespace holdfast {
 ShellPlan::ShellPlan(const TetMesh& mesh, const EdgeShell& shell, const std::vector<LinkTriangle>& triangles)
     : shell_(shell) {
   assert(shell.size() <= kMostLink && triangles.size() + 2 == shell.size());
-  look_at_shell(mesh);
+  read_shell(mesh);
   for (std::size_t i = 0; i < shell.size(); ++i)
     std::fill_n(open_[i].begin(), shell.size(), std::array<Face, 2>{kNone, kNone});
   for (std::size_t k = 0; k < triangles.size(); ++k) join(triangles[k], 2 * k);
 }
 
-void ShellPlan::look_at_shell(const TetMesh& mesh) {
+void ShellPlan::read_shell(const TetMesh& mesh) {
   for (std::size_t i = 0; i < shell_.size(); ++i) {
     const Tet t = shell_.tets[i];
     const int a = mesh.index_of(t, shell_.a), b = mesh.index_of(t, shell_.b),

@@ -28,7 +28,7 @@ class ShellPlan {
     bool is_facet, is_spoke_segment;
   };
 
-  void look_at_shell(const TetMesh& mesh);
+  void read_shell(const TetMesh& mesh);
   void join(const LinkTriangle& triangle, std::size_t first);
   void join_side(std::size_t end, std::size_t tet, std::size_t x, std::size_t y, int c);
   void set_spoke(std::size_t end, std::size_t tet, std::size_t corner, int c);

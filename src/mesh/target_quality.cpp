@@ -48,12 +48,12 @@ class BestTetrahedron {
                                  twice_area({along_ - l, height_, 0}, {-l / 2, apex[1], apex[2]});
     const Vector to_third{along_ - apex[0], height_ - apex[1], apex[2]};
     const double longest = std::max(l, length(to_third));
-    return kQualityOfRegular * longest * (twice_area_ + twice_lateral) / (twice_area_ * apex[2]);
+    return kInradiusOfRegular * longest * (twice_area_ + twice_lateral) / (twice_area_ * apex[2]);
   }
 
   [[nodiscard]] double best_angle() const {
-    constexpr double kGolden = 0.6180339887498949;
-    constexpr int kSteps = 60;
+    constexpr double kGolden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
+    constexpr int kSteps = 60;                      // of a golden section search: 0.37 * kGolden^60 = 1e-13
     double low = 1.2;  // acos(1/3) = 1.231, of the equilateral triangle, is the least
     double high = std::numbers::pi / 2;
     double x = high - kGolden * (high - low), y = low + kGolden * (high - low);
@@ -83,7 +83,7 @@ double target_of(std::span<const Point> vertices, std::span<const Triangle> face
   // Any candidate bounds the best one from above: the one for the worst triangle so far rules out most
   // triangles, and all of its shape.
   constexpr double kRounding = 1e-12;
-  double target = 0, angle = 1.3;
+  double target = 0, angle = 1.3;  // any angle will do for the first triangle
   for (const Triangle& f : facets) {
     const auto p = careful::brought_in_range<3>({vertices[f[0]], vertices[f[1]], vertices[f[2]]});
     const BestTetrahedron candidates(p[0], p[1], p[2]);
@@ -107,8 +107,8 @@ double best_quality_on(const Point& a, const Point& b, const Point& c) {
 
 double target_quality(std::span<const Point> vertices, std::span<const Triangle> facets,
                       const Threads& threads) {
-  constexpr std::size_t kBlock =
-      8192;  // the same for any number of threads, since the last bits may depend on it
+  // The same for any number of threads, because the last bits may depend on it.
+  constexpr std::size_t kBlock = 8192;
   std::vector<double> targets(1 + facets.size() / kBlock);
   parallel(threads, targets.size(), [&](std::size_t k) {
     const std::size_t first = k * kBlock;

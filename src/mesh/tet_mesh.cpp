@@ -156,12 +156,6 @@ void TetMesh::renumber(std::span<const Tet> tets, Vertex first, std::span<const 
     if (t != kNone) t = tet_now[t];
 }
 
-std::size_t TetMesh::memory_bytes() const {
-  return cells_.capacity() * (sizeof(Cell) + sizeof(Flags)) + free_.capacity() * sizeof(Tet) +
-         positions_.capacity() * (sizeof(Point) + 2 * sizeof(std::uint32_t)) +
-         exact_.capacity() * sizeof(exact::ExactPoint);
-}
-
 void TetMesh::reserve(std::size_t vertices, std::size_t tets) {
   positions_.reserve(vertices);
   exact_of_.reserve(vertices);

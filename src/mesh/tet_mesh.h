@@ -102,6 +102,12 @@ class TetMesh {
     return edge_between(index_of(t, a), index_of(t, b));
   }
 
+  /// The two corners of t that are not on its edge ab, ordered so that (a b c d) is positive.
+  [[nodiscard]] std::array<Vertex, 2> opposite_edge(Tet t, Vertex a, Vertex b) const {
+    const auto& [c, d] = opposite_corners(index_of(t, a), index_of(t, b));
+    return {corner(t, c), corner(t, d)};
+  }
+
   /// Sign of det(b-a, c-a, d-a), exactly.
   [[nodiscard]] int orient(Vertex a, Vertex b, Vertex c, Vertex d) const {
     if (exact_in_use_ == 0)
@@ -122,7 +128,6 @@ class TetMesh {
 
   /// Number of vertices whose position doubles cannot represent.
   [[nodiscard]] std::size_t exact_vertex_count() const { return exact_in_use_; }
-  [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
   friend class MeshEditor;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "numbers/random.h"
 #include "numbers/sorted.h"
 
 namespace holdfast {
@@ -52,9 +53,7 @@ void shell(const TetMesh& mesh, Tet t, Vertex a, Vertex b, std::vector<Tet>& out
   const Tet start = t;
   do {
     out.push_back(t);
-    const auto& cd = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
-                              [static_cast<std::size_t>(mesh.index_of(t, b))];
-    t = tet_of(mesh.neighbour(t, cd[0]));
+    t = tet_of(mesh.neighbour(t, opposite_corners(mesh.index_of(t, a), mesh.index_of(t, b))[0]));
   } while (t != start);
 }
 
@@ -72,21 +71,20 @@ Face find_face_round(const TetMesh& mesh, Tet start, Vertex a, Vertex b, Vertex 
   Tet t = start;
   do {
     const int k = mesh.index_of(t, c);
-    const auto& cd = kOpposite[static_cast<std::size_t>(mesh.index_of(t, a))]
-                              [static_cast<std::size_t>(mesh.index_of(t, b))];
-    if (k >= 0) return face_code(t, cd[0] == k ? cd[1] : cd[0]);
-    t = tet_of(mesh.neighbour(t, cd[0]));
+    const auto [c0, c1] = opposite_corners(mesh.index_of(t, a), mesh.index_of(t, b));
+    if (k >= 0) return face_code(t, c0 == k ? c1 : c0);
+    t = tet_of(mesh.neighbour(t, c0));
   } while (t != start);
   return kNone;
 }
 
 Tet walk_to(const TetMesh& mesh, Vertex v, Tet start, std::uint32_t& random) {
-  constexpr int kMostSteps = 2000;
+  constexpr int kMostSteps = 2000;  // a walk that takes more is going round in circles
   Tet t = start;
   Tet from = kNone;
   for (int step = 0; step < kMostSteps; ++step) {
     if (mesh.is_ghost(t)) return t;
-    random = random * 1664525u + 1013904223u;
+    random = numbers::next_congruential(random);
     const auto first = static_cast<int>(random >> 30);
     bool moved = false;
     for (int k = 0; k < 4 && !moved; ++k) {

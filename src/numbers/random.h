@@ -46,6 +46,12 @@ void shuffle(Iterator first, Iterator last, Random& random) {
   }
 }
 
+/// The next state of a small generator, whose highest bits are random enough for walks (linear congruential:
+/// Press and others, Numerical Recipes).
+[[nodiscard]] constexpr std::uint32_t next_congruential(std::uint32_t state) {
+  return state * 1664525u + 1013904223u;
+}
+
 /// A nearly normal number of mean 0 and variance 1: the sum of four evenly distributed numbers.
 [[nodiscard]] inline double bell(Random& random) {
   std::uint64_t bits = random();

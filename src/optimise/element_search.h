@@ -1,4 +1,4 @@
-// The worst element first, by the cheapest way that helps, as long as the budget allows it (paper §8).
+// The worst element first, by the cheapest way that helps, as long as the budget allows it (paper §6.4).
 #pragma once
 
 #include <functional>

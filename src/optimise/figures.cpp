@@ -7,7 +7,7 @@
 namespace holdfast {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kRounding = 1e-9;  // above that of the sums
 
 // Above this, a cosine determines the small angle poorly.
 constexpr double kGreatCosine = 0.98;

@@ -83,8 +83,8 @@ bool fill_anew_round(Search& search, const WaitingElement& worst, const Filler& 
     };
     if (fill_anew(search, polyhedron, fill, likely)) return true;
     if (most == tuning::kFilledAnew.front()) leave_out(search, polyhedron, left_out);
-    if (polyhedron.tets().size() < most)
-      return false;  // larger ones would be the same: these are all tetrahedra
+    // If these are all tetrahedra, larger polyhedra would be the same.
+    if (polyhedron.tets().size() < most) return false;
   }
   return false;
 }

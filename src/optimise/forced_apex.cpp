@@ -27,11 +27,11 @@ bool has_better_apex(const TetMesh& mesh, Face f, double limit, const Threads& t
   const double longest = std::max({lengths[0], lengths[1], lengths[2]});
   const double side = dot(mesh.position(mesh.apex(f)) - a, normal) > 0 ? 1 : -1;
   // The inradius is below half of the height, so most vertices need no Q.
-  const double least_height = 2 * kQualityOfRegular * longest / limit;
+  const double least_height = 2 * kInradiusOfRegular * longest / limit;
   const double twice_area = length(normal), least = least_height * twice_area;
   // It is also below the facet's inradius, so the longest edge must not be too many times as long.
   const double most =
-      kAboveRounding * limit / kQualityOfRegular * twice_area / (lengths[0] + lengths[1] + lengths[2]);
+      kAboveRounding * limit / kInradiusOfRegular * twice_area / (lengths[0] + lengths[1] + lengths[2]);
   const double most_squared = most > kWithSquare ? most * most : std::numeric_limits<double>::infinity();
   const std::span<const Point> positions = mesh.positions();
   const auto is_better = [&](const Point& p) {

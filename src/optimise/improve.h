@@ -1,5 +1,5 @@
 // Makes a volume fit to compute with: smoothing, swaps, contractions and a few points, on the worst elements
-// until they stop improving (paper §8).
+// until they stop improving (paper §6.4).
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Better elements without field points: exchanges, relocation and reconnection on the worst of them first
-// (paper §8).
+// (paper §6.4, §8).
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ struct OptimiseStats {
   std::size_t unflattened = 0;  ///< flat tetrahedra removed by several flips
   std::size_t reconnected = 0;  ///< small polyhedra filled in another way
   std::size_t inserted = 0;     ///< points for flat tetrahedra
-  std::size_t removed =
-      0;  ///< points, these or others, removed in the end because the mesh did not need them
+  /// Points, these or others, removed in the end because the mesh did not need them.
+  std::size_t removed = 0;
   std::size_t filled_anew = 0;  ///< polyhedra filled anew
   std::size_t changed = 0;      ///< tetrahedra made, including those of unsuccessful attempts
 

@@ -99,8 +99,8 @@ class Qualities {
 
   const TetMesh& mesh_;
   std::vector<double> known_;  // by slot
-  std::vector<double>
-      worst_;  // by block of slots, or more where that one is gone; empty until it is asked for
+  // By block of slots, or more where that one is gone; empty until it is asked for.
+  std::vector<double> worst_;
 };
 
 }  // namespace holdfast

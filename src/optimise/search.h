@@ -84,9 +84,8 @@ class Search {
   [[nodiscard]] double worst_without_point() {
     return std::max(bad_from().flat, std::min(badness().worst, bad_from().null));
   }
-  /// The worst of the elements that are to be better, whether it waits, was given up, or neither; nothing
-  /// where none is worse than good.
-  /// None of these elements that are left out.
+  /// The worst of the elements that are to be better, except those left out, whether it waits, was given up,
+  /// or neither; nothing if none is worse than good.
   [[nodiscard]] std::optional<WaitingElement> worst(std::span<const TetMesh::Corners> left_out = {});
   /// Vertices that are free, and new in the mesh.
   void add_points(std::span<const Vertex> points) {

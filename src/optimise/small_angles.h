@@ -19,8 +19,7 @@ class SmallAngles {
   [[nodiscard]] double weight(double energy) const {
     double sum = 0;
     for (std::size_t k = 0; k < from_.size(); ++k)
-      sum += energy > from_[k] ? tuning::kWeightBelow[k].weight
-                               : 0.0;  // no branch, for they are hard to foresee
+      sum += energy > from_[k] ? tuning::kWeightBelow[k].weight : 0.0;  // branchless: it is unpredictable
     return sum;
   }
 

@@ -16,7 +16,6 @@ class Star {
   void add(const Point& a, const Point& b, const Point& c, double weight);
   /// By which energies are computed from now on.
   void follow(const EnergyRule& rule) { rule_ = rule; }
-  [[nodiscard]] std::size_t face_count() const { return face_count_; }
 
   /// Starts the search for a place at x, where the energy is known or computed.
   void start_at(const Point& x, double energy) {

@@ -124,7 +124,7 @@ double Thinner::burden_of_listed(double worst, double limit) const {
 
 // Energies decide between contractions of equal weight.
 double Thinner::burden_of(double energy) const {
-  constexpr double kMostEnergy = 1e30;
+  constexpr double kMostEnergy = 1e30;  // so that an infinite energy has a logarithm
   return small_->weight(energy) + tuning::kWeightOfTwiceTheEnergy * rough_log2(std::min(energy, kMostEnergy));
 }
 

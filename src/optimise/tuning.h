@@ -12,8 +12,8 @@ namespace holdfast::tuning {
 // --- With --fill. Thresholds of the paper's Q (1 is regular).
 inline constexpr double kGood = 2;  ///< better elements are left alone: users do not see the difference
 inline constexpr double kBad = 30;  ///< from here on elements come first, and only these may be shaken
-inline constexpr double kFlat =
-    100;  ///< from here on, and from kFlatForTarget targets on, an element is flat
+/// From here on, and from kFlatForTarget targets on, an element is flat.
+inline constexpr double kFlat = 100;
 inline constexpr double kFlatForTarget = 2;
 inline constexpr double kWorthReconnecting = 200;  ///< from here on a search may fail more often
 inline constexpr double kHopeless = 1000;          ///< from here on, and from kHopelessForTarget targets on,
@@ -205,16 +205,16 @@ inline constexpr double kAddTetsAWork = 60;        ///< tetrahedra of its caviti
 inline constexpr double kContractTetsAWork = 100;  ///< tetrahedra looked at
 inline constexpr double kSmoothTetsAWork = 10;     ///< tetrahedra of a ball
 
-inline constexpr double kObtuse =
-    1.5;  ///< square of the factor for the sine of an obtuse angle: it does less harm
+/// Square of the factor for the sine of an obtuse angle: it does less harm.
+inline constexpr double kObtuse = 1.5;
 inline constexpr double kSineOfFlat = 0.035;  ///< 2 degrees: worse elements get the ways of --fill, too
 /// Part of a sum of energies that is only rounding, and a gain that is worth a change.
 inline constexpr double kEnergyRounding = 1e-9, kLeastEnergyGain = 0.02;
 
 // Search for the best place of a vertex: first the place that its faces prefer, then down the gradient.
 inline constexpr int kIdealTrials = 3;  ///< each goes half as far
-inline constexpr double kLeastPatientGain =
-    0.98;  ///< the most of the energy that remains after a patient move
+/// The most of the energy that remains after a patient move.
+inline constexpr double kLeastPatientGain = 0.98;
 inline constexpr int kDescentSteps = 6, kDescentTrials = 4;  ///< trials a step
 inline constexpr double kDifference = 1e-5;     ///< sizes of the star, for the gradient by differences
 inline constexpr double kDescentStep = 0.15;    ///< sizes of the star, in the first trial
@@ -226,12 +226,12 @@ inline constexpr double kFarFromGain = 3;  ///< times the energy removed: from t
 inline constexpr std::size_t kMostContractedBall = 100, kMostAddedBall = 200;
 inline constexpr std::size_t kMostRefilled = 25;    ///< the best cavity for a point mostly has fewer
 inline constexpr std::size_t kFartherThanBest = 5;  ///< by which the cavity grows beyond the best so far
-inline constexpr std::size_t kMostRefillVertices =
-    13;                                           ///< a search without a point soon takes too long above this
+/// A search without a point soon takes too long above this.
+inline constexpr std::size_t kMostRefillVertices = 13;
 inline constexpr std::size_t kRefillNodes = 100;  ///< of that search
-inline constexpr double kRefillGain =
-    0.5;  ///< part of the worst energy that remains after a filling without a point
-inline constexpr double kWorkOfFirstParts =
-    0.9;  ///< share of progress; the rest is for the mesh near the cuts
+/// Part of the worst energy that remains after a filling without a point.
+inline constexpr double kRefillGain = 0.5;
+/// Share of progress; the rest is for the mesh near the cuts.
+inline constexpr double kWorkOfFirstParts = 0.9;
 
 }  // namespace holdfast::tuning

@@ -1,4 +1,4 @@
-// The ways to improve an element by energy, from the cheapest to the most expensive (paper §8).
+// The ways to improve an element by energy, from the cheapest to the most expensive (paper §6.4).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The ways to remove a bad element, from the cheapest to the most expensive (paper §8), for meshes judged by
-// Q.
+// The ways to remove a bad element, from the cheapest to the most expensive (paper §6.4), for meshes judged
+// by Q.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,8 @@ class Ways {
   /// The inputs of the ways besides the element, and their results.
   struct Attempt {
     const WaitingElement& element;
-    double worst_stuck;  ///< the worst Q that cannot be improved: improving better elements does not improve
-                         ///< the mesh's worst
+    /// The worst Q that cannot be improved: improving better elements does not improve the mesh's worst.
+    double worst_stuck;
     Points points;
     Budget& budget;
     std::vector<Tet>& changed;  ///< tetrahedra made or moved; some may be gone again

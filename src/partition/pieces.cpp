@@ -115,7 +115,7 @@ class Pieces {
   void find_segments() {
     if (volume_.segments.empty()) return;
     EdgeNumbers numbers(volume_.segments.size());
-    std::vector<std::vector<Index>> segments;  // of each edge: a segment may be there twice
+    std::vector<std::vector<Index>> segments;  // of each edge: a segment may be duplicated
     for (Index s = 0; s < volume_.segments.size(); ++s) {
       const Index edge = numbers.of(volume_.segments[s][0], volume_.segments[s][1]);
       if (edge == segments.size()) segments.emplace_back();
@@ -167,26 +167,32 @@ class Pieces {
     }
   }
 
-  template <class Entity>
-  static void add_entities(const std::vector<Entity>& all, const std::vector<int>& markers,
-                           const PartsOf& parts, Index part, const std::vector<Index>& number,
-                           std::vector<Entity>& entities, std::vector<int>& of_piece,
-                           std::vector<Index>& owners) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
+  /// Calls add(entity, i) for every facet, or segment, i of a piece, with its vertices numbered in the piece.
+  template <class Entity, class Add>
+  static void for_each_in_piece(const std::vector<Entity>& entities, const PartsOf& parts, Index part,
+                                const std::vector<Index>& number, const Add& add) {
+    for (std::size_t i = 0; i < entities.size(); ++i) {
       if (!parts.in_piece(i, part)) continue;
-      Entity entity = all[i];
+      Entity entity = entities[i];
       for (Index& v : entity) v = number[v];
-      entities.push_back(entity);
-      owners.push_back(parts.owner(i));
-      if (!markers.empty()) of_piece.push_back(markers[i]);
+      add(entity, i);
     }
   }
 
   void add_bounds(MeshPiece& piece, Index part, const std::vector<Index>& number) const {
-    add_entities(volume_.facets, volume_.facet_markers, parts_of_facet_, part, number, piece.volume.facets,
-                 piece.volume.facet_markers, piece.facet_owners);
-    add_entities(volume_.segments, volume_.segment_markers, parts_of_segment_, part, number,
-                 piece.volume.segments, piece.volume.segment_markers, piece.segment_owners);
+    Volume& own = piece.volume;
+    const auto add_facet = [&](const Triangle& facet, std::size_t f) {
+      own.facets.push_back(facet);
+      piece.facet_owners.push_back(parts_of_facet_.owner(f));
+      if (!volume_.facet_markers.empty()) own.facet_markers.push_back(volume_.facet_markers[f]);
+    };
+    const auto add_segment = [&](const Segment& segment, std::size_t s) {
+      own.segments.push_back(segment);
+      piece.segment_owners.push_back(parts_of_segment_.owner(s));
+      if (!volume_.segment_markers.empty()) own.segment_markers.push_back(volume_.segment_markers[s]);
+    };
+    for_each_in_piece(volume_.facets, parts_of_facet_, part, number, add_facet);
+    for_each_in_piece(volume_.segments, parts_of_segment_, part, number, add_segment);
   }
 
   void add_interfaces(MeshPiece& piece, Index part, const std::vector<Index>& number) const {

@@ -119,7 +119,7 @@ class Clipper {
     return points_.orient(corners_[p.before].v, p.v, corners_[p.behind].v);
   }
 
-  // --- Which corner comes next -------------------------------------------------------------------------
+  // --- Which corner comes next
 
   /// The least height of a corner's triangle over its longest side, approximately.
   [[nodiscard]] double quality(Corner i) const {
@@ -189,7 +189,7 @@ class Clipper {
     for (; i != kNone; i = waiting_[i].next) look_at(waiting_[i].corner);
   }
 
-  // --- Corners in a triangle ------------------------------------------------------------------------------
+  // --- Corners in a triangle
 
   [[nodiscard]] bool stands_reflex(Corner i) const { return corners_[i].reflex && !corners_[i].removed; }
 
@@ -282,7 +282,7 @@ class Clipper {
     return found;
   }
 
-  // --- Triangles ---------------------------------------------------------------------------------------
+  // --- Triangles
 
   /// Records what lies beyond a side of a triangle.
   void meet(EdgeCode e, Beyond beyond) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "numbers/mix.h"
 #include "plane/grid.h"
 
 namespace holdfast::plane {
@@ -60,14 +61,6 @@ std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
     way = next;
   }
   return place;
-}
-
-/// A hash of an index (Vigna, splitmix64).
-std::uint64_t scattered(std::uint64_t i) {
-  i += 0x9E3779B97F4A7C15u;
-  i = (i ^ i >> 30) * 0xBF58476D1CE4E5B9u;
-  i = (i ^ i >> 27) * 0x94D049BB133111EBu;
-  return i ^ i >> 31;
 }
 
 struct Entry {
@@ -138,7 +131,7 @@ std::vector<Vertex> order_in_rounds(std::span<const Position> points, int rounds
   const Grid grid(points, 1u << kBits);
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const int back = std::min(std::countr_zero(scattered(i)), rounds);
+    const int back = std::min(std::countr_zero(numbers::mixed(i)), rounds);
     const std::uint64_t place = hilbert(grid.cell(points[i][0], 0), grid.cell(points[i][1], 1));
     entries[i] = {static_cast<std::uint64_t>(rounds - back) << (2 * kBits) | place, static_cast<Vertex>(i)};
   }

@@ -27,8 +27,8 @@ struct Refined {
   std::vector<OnSegment> on_segments;  ///< by segment, in order along each
   std::size_t inside = 0;              ///< added points not on a constraint
   std::size_t on_others = 0;           ///< added points on constraints that are no segments: the convex hull
-  std::size_t small_input =
-      0;  ///< triangles below the bound in, or across from, a small angle between segments
+  /// Triangles below the bound in, or across from, a small angle between segments.
+  std::size_t small_input = 0;
   std::size_t small_left = 0;  ///< others below the bound
   std::size_t large_left = 0;  ///< triangles above the limits of size
   bool capped = false;         ///< stopped at `most_points`

@@ -50,7 +50,7 @@ class Sweep {
 
   [[nodiscard]] int side(Item s, Vertex v) const { return points_.orient(ends_[s][0], ends_[s][1], v); }
 
-  // --- Parts of the graph: disjoint-set trees with path halving ------------------------------------------
+  // --- Parts of the graph: disjoint-set trees with path halving
 
   Vertex part_of(Vertex v) {
     while (part_[v] != v) v = part_[v] = part_[part_[v]];

@@ -79,7 +79,6 @@ class Triangles {
 
   /// Sets, for each vertex, a triangle at it.
   void find_stars(std::size_t vertices);
-  [[nodiscard]] bool has_stars() const { return !star_.empty(); }
   /// Some edge whose first end is `v`, or kNoEdge for a vertex without triangles. Needs find_stars.
   [[nodiscard]] EdgeCode edge_from(Vertex v) const;
   /// The edge ab, seen from its left, or kNoEdge. Needs a closed mesh and find_stars.

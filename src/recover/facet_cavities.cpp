@@ -23,7 +23,7 @@
 namespace holdfast {
 namespace {
 
-using FaceCorners = FaceKey;
+using FaceCorners = std::array<Vertex, 3>;
 using Tell = std::function<void()>;
 
 // Tetrahedra that fill a cavity, and the points added for them: vertex kAdded + k is the k-th point.
@@ -81,10 +81,10 @@ class Cavity {
     const auto first_free = static_cast<Vertex>(mesh.vertex_count());
     tell();
     Standing standing = mark_present(mesh, table);
-    FlipRecovery(mesh, table, local.facets, standing, seed)
-        .run([&](double) { tell(); }, tuning::kCavityPasses);
+    const ConstraintSet constraints{table, local.facets, standing};
+    FlipRecovery(mesh, constraints, seed).run([&](double) { tell(); }, tuning::kCavityPasses);
     const auto all_stands = [&] { return standing.missing_facets() + standing.missing_segments() == 0; };
-    if (!all_stands() && finish) finish(mesh, table, local.facets, standing, first_free);
+    if (!all_stands() && finish) finish(mesh, constraints, first_free);
     if (all_stands()) return inside_of(mesh, first_free, seed);
     for (Index f = 0; f < local.facets.size(); ++f)
       if (standing.facets[f] == 0) missing_.push_back(global(local.facets[f]));

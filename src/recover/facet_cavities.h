@@ -21,10 +21,9 @@ namespace holdfast {
 
 class FacetCavities {
  public:
-  /// Completes a mesh in which some facets or segments of a complex are missing. It may add vertices, which
-  /// are those from the last argument on.
-  using Finish =
-      std::function<void(TetMesh&, const SegmentTable&, std::span<const Triangle>, Standing&, Vertex)>;
+  /// Completes a mesh in which some constraints are missing. It may add vertices, which are those from
+  /// `first_free` on.
+  using Finish = std::function<void(TetMesh& mesh, const ConstraintSet& constraints, Vertex first_free)>;
 
   FacetCavities(TetMesh& mesh, std::uint64_t seed) : mesh_(mesh), random_(seed), piercing_(mesh, random_) {}
 

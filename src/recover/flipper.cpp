@@ -17,7 +17,7 @@ namespace holdfast {
 class Flipper::ForTarget {
  public:
   using Cost = int;
-  static constexpr int kWeight = 64;
+  static constexpr int kWeight = 64;  // of a crossing: more than the diagonals of any link
 
   ForTarget(const TetMesh& mesh, const EdgeShell& shell, const ShellEars& ears, const ShellSigns& signs,
             const Target& target, Vertex avoided)

@@ -10,13 +10,6 @@ namespace {
 
 constexpr std::size_t next3(std::size_t k) { return k == 2 ? 0 : k + 1; }
 
-// The two vertices of a tetrahedron that are not on edge cd, ordered so that (c d x y) is positive.
-std::array<Vertex, 2> opposite_edge(const TetMesh& mesh, Tet t, Vertex c, Vertex d) {
-  const auto& xy =
-      kOpposite[static_cast<std::size_t>(mesh.index_of(t, c))][static_cast<std::size_t>(mesh.index_of(t, d))];
-  return {mesh.corner(t, xy[0]), mesh.corner(t, xy[1])};
-}
-
 Crossing face_opposite(const TetMesh& mesh, Tet t, Vertex v) {
   return {t, mesh.face_vertices(face_code(t, mesh.index_of(t, v))), 3};
 }
@@ -115,7 +108,7 @@ Piercing::Exit Piercing::pass_edge(const Exit& in, Vertex a, Vertex b) const {
   const Vertex c = in.corners[0], d = in.corners[1];
   Tet t = in.tet;
   do {
-    const auto [x, y] = opposite_edge(mesh_, t, c, d);
+    const auto [x, y] = mesh_.opposite_edge(t, c, d);
     if (mesh_.is_ghost(t)) return {};
     if (mesh_.orient(c, d, b, y) > 0) {
       const int side = mesh_.orient(c, d, x, b);
@@ -192,7 +185,7 @@ std::optional<Piercing::Start> Piercing::start_of(const std::array<Vertex, 3>& f
   Start found;
   Tet t = start;
   do {
-    const auto [c, d] = opposite_edge(mesh_, t, a, b);
+    const auto [c, d] = mesh_.opposite_edge(t, a, b);
     if (c == inside) return Start{.face = face_code(t, mesh_.index_of(t, d))};
     if (found.across == kNone && !mesh_.is_ghost(t) && d != inside && mesh_.orient(a, b, inside, d) > 0 &&
         mesh_.orient(a, b, c, inside) > 0)

@@ -10,12 +10,11 @@
 #include "recover/tuning.h"
 
 namespace holdfast {
-FlipRecovery::FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets,
-                           Standing& standing, std::uint64_t seed)
+FlipRecovery::FlipRecovery(TetMesh& mesh, const ConstraintSet& constraints, std::uint64_t seed)
     : mesh_(mesh),
-      table_(table),
-      facets_(facets),
-      standing_(standing),
+      table_(constraints.table),
+      facets_(constraints.facets),
+      standing_(constraints.standing),
       random_(seed),
       piercing_(mesh, random_),
       flipper_(mesh, random_) {}

@@ -27,14 +27,13 @@ struct FlipStats {
 /// possibly others.
 class FlipRecovery {
  public:
-  FlipRecovery(TetMesh& mesh, const SegmentTable& table, std::span<const Triangle> facets, Standing& standing,
-               std::uint64_t seed);
+  FlipRecovery(TetMesh& mesh, const ConstraintSet& constraints, std::uint64_t seed);
 
   /// Called from time to time in long runs, with the part that is done; it may throw.
   using Tell = std::function<void(double)>;
 
   /// Runs passes over all missing constraints until flips recover no more. If `tell` throws, the mesh and
-  /// `standing` keep all that was done so far.
+  /// the flags keep all that was done so far.
   FlipStats run(const Tell& tell, int most_passes = tuning::kMostFlipPasses);
 
   struct Effort {

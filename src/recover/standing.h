@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/parallel.h"
@@ -16,6 +17,13 @@ struct Standing {
 
   [[nodiscard]] std::size_t missing_segments() const;
   [[nodiscard]] std::size_t missing_facets() const;
+};
+
+/// What a mesh has to conform to, and what of it stands. The references must outlive it.
+struct ConstraintSet {
+  const SegmentTable& table;
+  std::span<const Triangle> facets;
+  Standing& standing;
 };
 
 /// Finds the segments and facets that the mesh holds and sets their bits there. One sweep over the

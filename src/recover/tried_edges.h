@@ -8,6 +8,7 @@
 
 #include "mesh/keys.h"
 #include "mesh/tet_mesh.h"
+#include "numbers/mix.h"
 
 namespace holdfast {
 
@@ -43,9 +44,7 @@ class TriedEdges {
 
   // That of the key, or the free one where it belongs (linear probing).
   [[nodiscard]] std::size_t place_of(EdgeKey key) const {
-    constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // Fibonacci hashing (Knuth, TAOCP 3, 6.4)
-    const std::uint64_t mixed = key * kMix;
-    std::size_t i = static_cast<std::size_t>(mixed >> 32) & (slots_.size() - 1);
+    std::size_t i = static_cast<std::size_t>(key * numbers::kGolden >> 32) & (slots_.size() - 1);
     while (slots_[i].generation == generation_ && slots_[i].key != key) i = (i + 1) & (slots_.size() - 1);
     return i;
   }

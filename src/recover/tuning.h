@@ -11,13 +11,13 @@ inline constexpr int kMostFlipPasses = 25;
 inline constexpr int kMostIdlePasses = 3;        ///< in a row
 inline constexpr std::size_t kIdlePass = 20;     ///< an idle pass recovers less than one in so many
 inline constexpr std::size_t kPassBudget = 500;  ///< sign tests, roughly, of an attempt at a crossing
-inline constexpr std::size_t kShuffledBlock =
-    1000;  ///< constraints: what is close in number is close in memory
+/// Constraints: what is close in number is close in memory.
+inline constexpr std::size_t kShuffledBlock = 1000;
 
 // Where flips give a constraint up.
 inline constexpr std::size_t kMostCrossings = 2000;  ///< of a segment or facet
-inline constexpr std::size_t kMostPiercing =
-    200;  ///< edges through a facet: with more, its cavities cost less
+/// Edges through a facet: with more, its cavities cost less.
+inline constexpr std::size_t kMostPiercing = 200;
 inline constexpr std::size_t kMostFlipFailures = 100;  ///< crossings of one facet that could not be cleared
 inline constexpr std::size_t kMostClipped = 1000;      ///< tetrahedra of a shell whose ears are clipped
 inline constexpr int kMostWalk = 400;  ///< steps round a vertex; then its whole ball is looked at

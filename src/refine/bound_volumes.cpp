@@ -160,8 +160,8 @@ class RatioLowerer {
   }
 
  private:
-  static constexpr double kLeastFatness =
-      0.05;  // new elements may be as flat as this, or as the flattest that goes
+  // New elements may be as flat as this, or as the flattest that goes.
+  static constexpr double kLeastFatness = 0.05;
 
   [[nodiscard]] double ratio(const TetMesh::Corners& c) const {
     return radius_over_edge(mesh_.position(c[0]), mesh_.position(c[1]), mesh_.position(c[2]),

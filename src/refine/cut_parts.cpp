@@ -10,8 +10,6 @@
 namespace holdfast {
 namespace {
 
-constexpr double kHalf = 0.5;
-
 Cuts cuts_of(const TetMesh& mesh, const std::vector<Tet>& tets, double worth_cutting, double least_share) {
   std::vector<Cuts::Sample> samples;
   for (std::size_t k = 0; k < tets.size(); k += 1 + tets.size() / tuning::kCutSamples)
@@ -59,7 +57,7 @@ std::unique_ptr<Parts> cut_into_parts(const VolumeData& volume, const std::vecto
 
 std::unique_ptr<Parts> cut_evenly(const VolumeData& volume, const Threads& threads) {
   const std::vector<Tet> tets = tets_inside(volume, threads);
-  const Cuts cuts = cuts_of(volume.mesh, tets, tuning::kWorthCutting, kHalf);
+  const Cuts cuts = cuts_of(volume.mesh, tets, tuning::kWorthCutting, 0.5);
   if (cuts.part_count() == 1) return {};
   return cut_into_parts(volume, tets, cuts, tuning::kMostAtCuts, threads);
 }

@@ -12,8 +12,8 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kTetsACall =
-    4096;  ///< points are gathered from so many, because functions prefer to be asked about many at once
+/// Points are gathered from so many, because functions prefer to be asked about many at once.
+constexpr std::size_t kTetsACall = 4096;
 
 // The number of elements of edge 1 in a volume of 1 in a metric, relative to Euclidean space: the root of the
 // determinant. Computed from Cholesky's pivots, because the sum of products is pure rounding where sizes
@@ -42,10 +42,7 @@ std::vector<double> densities(const SizeFunction& sizes, std::span<const Point> 
 }
 
 void add_centre(const VolumeData& volume, Tet t, std::vector<Point>& points) {
-  Point centre{};
-  for (const Vertex v : volume.mesh.corners(t))
-    for (std::size_t k = 0; k < 3; ++k) centre[k] += 0.25 * volume.mesh.position(v)[k];
-  points.push_back(centre);
+  points.push_back(centroid(volume.mesh, t));
 }
 
 void add_corners_and_middles(const VolumeData& volume, Tet t, std::vector<Point>& points) {

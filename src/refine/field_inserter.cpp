@@ -3,9 +3,10 @@
 #include <algorithm>
 
 #include "mesh/editor.h"
+#include "numbers/vector.h"
+#include "refine/circumcentre.h"
 #include "refine/parts.h"
 #include "refine/tuning.h"
-#include "refine/vector.h"
 
 namespace holdfast {
 std::span<const Tet> FieldInserter::insert(const Point& x, Tet start) {

@@ -9,6 +9,7 @@
 
 #include "mesh/editor.h"
 #include "mesh/measure.h"
+#include "numbers/vector.h"
 #include "refine/cut_parts.h"
 #include "refine/front.h"
 #include "refine/order.h"
@@ -16,7 +17,6 @@
 #include "refine/section_points.h"
 #include "refine/tets_inside.h"
 #include "refine/tuning.h"
-#include "refine/vector.h"
 
 namespace holdfast {
 namespace {

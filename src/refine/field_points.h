@@ -1,5 +1,5 @@
 // Field points: points inside the regions so that edges get the length that a size function asks for
-// (docs/sizes.md; paper §8).
+// (docs/sizes.md; paper §9).
 #pragma once
 
 #include <memory>

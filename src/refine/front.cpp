@@ -5,10 +5,11 @@
 #include <deque>
 
 #include "mesh/measure.h"
+#include "numbers/vector.h"
+#include "refine/circumcentre.h"
 #include "refine/field_inserter.h"
 #include "refine/tets_inside.h"
 #include "refine/tuning.h"
-#include "refine/vector.h"
 
 namespace holdfast {
 namespace {
@@ -72,7 +73,7 @@ class Front {
     for (std::size_t first = 0; first < front_.size(); first += tuning::kFrontBlock) {
       const std::size_t last = std::min(first + tuning::kFrontBlock, front_.size());
       for (std::size_t k = last - first; k > 1; --k) {
-        random = random * 6364136223846793005u + 1442695040888963407u;
+        random = random * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX
         std::swap(front_[first + k - 1], front_[first + (random >> 33) % k]);
       }
     }
@@ -240,22 +241,22 @@ class Front {
     const double area = std::sqrt(nn);
     const double sum =
         volume_.size_in_frame(v[0]) + volume_.size_in_frame(v[1]) + volume_.size_in_frame(v[2]);
-    double length = sum / 3 * (1 + 0.4 * sizes_.gradation());
+    double length = sum / 3 * (1 + tuning::kHalfHeight * sizes_.gradation());
     if (!sizes_.of_facets().empty()) length = bearable_at(middle_of(v), volume_.region_of[tet_of(f)], length);
     // The centre of the circle through the corners, or, if that is far away, of the triangle.
     Vector foot = circle_centre(u, w);
     const double radius2 = dot(foot, foot);
-    const bool round = radius2 < 0.6 * length * length;
+    const bool round = radius2 < tuning::kLargestRound * length * length;
     const double top = dot(n, d - a) / area;
-    double height = round ? std::sqrt(length * length - radius2) : 0.75 * length;
+    double height = round ? std::sqrt(length * length - radius2) : tuning::kHeightOverLarge * length;
     if (round) {
       // The centre of the tetrahedron's sphere is over the foot as well.
       const double over = sphere_height(d - a, foot, n, area);
-      if (over < 0.3 * height) return false;
+      if (over < tuning::kLeastSphereHeight * height) return false;
       height = std::min(height, over);
     } else {
       for (std::size_t k = 0; k < 3; ++k) foot[k] = (u[k] + w[k]) / 3;
-      height = std::max(height, std::min(0.75 * grown_over(f), top / 2));
+      height = std::max(height, std::min(tuning::kHeightOverLarge * grown_over(f), top / 2));
       if (has_thin_wall_over(f, top, height)) height = top / 2;
       if (top < height) return false;
     }

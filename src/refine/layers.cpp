@@ -77,7 +77,7 @@ class EdgeParter {
   }
 
  private:
-  static constexpr std::size_t kMostShell = 10'000;
+  static constexpr std::size_t kMostShell = 10'000;  // so many that hardly any edge is left out
 
   [[nodiscard]] bool is_of_region(Tet t) const {
     return mesh_.alive(t) && !mesh_.is_ghost(t) && volume_.region_of[t] == region_;
@@ -204,16 +204,15 @@ void count_what_is_left(const TetMesh& mesh, std::span<const Tet> tets, const Le
 LayerStats make_layers(const VolumeData& volume, std::span<const Tet> tets, unsigned layers, Levels& levels,
                        Monitor& monitor) {
   const TetMesh& mesh = volume.mesh;
-  const RegionId region = volume.region_of[tets.front()];
   levels.clear();
   const Walls walls(mesh, tets, monitor);
+  const BetweenWalls where{volume, volume.region_of[tets.front()], walls, static_cast<std::uint8_t>(layers),
+                           monitor};
   std::vector<std::uint8_t> at_rims(mesh.vertex_count(), 0);
   EdgeParter parter(volume, tets, levels, monitor);
   for (std::size_t k = 0; k < Levels::kDirections; ++k) {
     at_rims.resize(mesh.vertex_count(), 0);
-    if (!number_levels(volume, region, walls, vertices_of(mesh, parter.tets()), k,
-                       static_cast<std::uint8_t>(layers), levels, at_rims, monitor))
-      continue;
+    if (!number_levels(where, vertices_of(mesh, parter.tets()), k, levels, at_rims)) continue;
     for (const std::uint8_t level : in_halves(layers)) parter.part_at(k, level);
   }
   LayerStats stats;

@@ -12,8 +12,7 @@ namespace holdfast {
 namespace {
 
 constexpr Flags kConstraintBits = kFacetBits | kSegmentBits;
-constexpr std::size_t kSlotsAtOnce = std::size_t{1}
-                                     << 18;  // some milliseconds' work for the system: new pages
+constexpr std::size_t kSlotsAtOnce = std::size_t{1} << 18;  // new pages: milliseconds of the system's work
 
 }  // namespace
 
@@ -150,8 +149,8 @@ Face Part::turn(Face in, Vertex across, Act&& act) const {
     const Tet t = tet_of(in);
     const Vertex apex = mesh.apex(in);
     const int out = mesh.index_of(t, across);
-    const auto& ends = kOpposite[static_cast<std::size_t>(out)][static_cast<std::size_t>(side_of(in))];
-    act(t, kEdgeOf[static_cast<std::size_t>(ends[0])][static_cast<std::size_t>(ends[1])]);
+    const auto& ends = opposite_corners(out, side_of(in));
+    act(t, edge_between(ends[0], ends[1]));
     in = mesh.neighbour(t, out);
     across = apex;
   }
@@ -178,9 +177,8 @@ void Part::copy_constraints_to(Tet ghost) {
   for (int edge = 0; edge < 6; ++edge) {
     const auto& ends = kEdgeVertex[static_cast<std::size_t>(edge)];
     if (!mesh.is_segment(t, edge) || ends[0] == side_of(inner) || ends[1] == side_of(inner)) continue;
-    const auto i = static_cast<std::size_t>(mesh.index_of(ghost, mesh.corner(t, ends[0])));
-    const auto j = static_cast<std::size_t>(mesh.index_of(ghost, mesh.corner(t, ends[1])));
-    MeshAssembly(mesh).set_flags(ghost, segment_bit(kEdgeOf[i][j]));
+    const int same_edge = mesh.edge_of(ghost, mesh.corner(t, ends[0]), mesh.corner(t, ends[1]));
+    MeshAssembly(mesh).set_flags(ghost, segment_bit(same_edge));
   }
 }
 
@@ -263,8 +261,8 @@ class PartJoiner {
     return seams;
   }
 
-  /// For one part at a time: handles remaining slots, and vertices that may be in other parts as well.
-  void tidy() {
+  /// For one part at a time: removes slots that are left, and writes vertices that other parts may have, too.
+  void write_shared() {
     for (std::size_t k = tets_.size(); k < part_.slots_.size(); ++k)
       MeshAssembly(whole_.mesh).remove_tet(part_.slots_[k]);
     for (Vertex v = 0; v < part_.first_free; ++v) {
@@ -424,7 +422,7 @@ void Parts::join(const Threads& threads) {
     joiners[k].write();
   });
   for (PartJoiner& joiner : joiners) {
-    joiner.tidy();
+    joiner.write_shared();
     threads.poll();
   }
   link_seams(whole_.mesh, joiners);

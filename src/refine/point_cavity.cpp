@@ -178,8 +178,7 @@ void PointCavity::list_rim() {
     if ((old & kSegmentBits) != 0) {
       const auto& c = kFaceVertex[f & 3u];
       const auto bit = [&](std::size_t i, std::size_t j) {
-        return (old & segment_bit(kEdgeOf[static_cast<std::size_t>(c[i])][static_cast<std::size_t>(c[j])])) !=
-               0;
+        return (old & segment_bit(edge_between(c[i], c[j]))) != 0;
       };
       if (bit(0, 1)) flags |= segment_bit(0);
       if (bit(0, 2)) flags |= segment_bit(1);

@@ -6,7 +6,8 @@
 #include <stdexcept>
 
 #include "mesh/editor.h"
-#include "refine/vector.h"
+#include "numbers/vector.h"
+#include "refine/circumcentre.h"
 
 namespace holdfast {
 namespace {

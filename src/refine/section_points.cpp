@@ -10,10 +10,11 @@
 #include <optional>
 
 #include "mesh/measure.h"
+#include "numbers/vector.h"
+#include "refine/circumcentre.h"
 #include "refine/field_inserter.h"
 #include "refine/tets_inside.h"
 #include "refine/tuning.h"
-#include "refine/vector.h"
 
 namespace holdfast {
 namespace {

@@ -8,7 +8,7 @@
 #include "classify/regions.h"
 #include "mesh/tet_mesh.h"
 #include "metric/frame.h"
-#include "refine/vector.h"
+#include "numbers/vector.h"
 
 namespace holdfast {
 

@@ -45,78 +45,108 @@ namespace {
 
 using Counts = std::vector<std::uint8_t>;  // by vertex; at most as many as layers
 
-// Counts edges to the nearest `first` vertex, over the vertices to which `for_each_next` leads.
-template <typename IsFirst, typename ForEachNext>
-Counts count_edges(std::size_t vertex_count, std::span<const Vertex> vertices, std::uint8_t most,
-                   Monitor& monitor, const IsFirst& is_first, const ForEachNext& for_each_next) {
-  Counts count(vertex_count, most);
-  std::vector<Vertex> front, next;
-  for (const Vertex v : vertices)
-    if (is_first(v)) {
-      count[v] = 0;
-      front.push_back(v);
-    }
-  for (std::uint8_t far = 1; far < most && !front.empty(); ++far, front.swap(next)) {
-    next.clear();
-    for (const Vertex v : front) {
-      monitor.poll_again();
-      for_each_next(v, [&](Vertex w) {
-        if (count[w] <= far) return;
-        count[w] = far;
-        next.push_back(w);
-      });
+// The levels of a region's vertices in one direction.
+class LevelNumbering {
+ public:
+  LevelNumbering(const BetweenWalls& where, std::span<const Vertex> vertices, std::size_t direction)
+      : where_(where), mesh_(where.volume.mesh), vertices_(vertices), direction_(direction) {}
+
+  [[nodiscard]] bool has_floors_and_ceilings() const {
+    return std::any_of(vertices_.begin(), vertices_.end(), [this](Vertex v) { return is_floor(v); }) &&
+           std::any_of(vertices_.begin(), vertices_.end(), [this](Vertex v) { return is_ceiling(v); });
+  }
+
+  void run(Levels& levels, std::vector<std::uint8_t>& at_rims) {
+    const auto floor = [this](Vertex v) { return is_floor(v); };
+    const auto ceiling = [this](Vertex v) { return is_ceiling(v); };
+    const Counts up = count_along_facets(floor), down = count_along_facets(ceiling);
+    find_free(up, down, at_rims);
+    const Counts inner_up = count_inside(floor), inner_down = count_inside(ceiling);
+    for (const Vertex v : vertices_) {
+      const bool on_surface = where_.walls.is_on_surface(v);
+      const unsigned to_floor = on_surface ? up[v] : inner_up[v];
+      const unsigned all = to_floor + (on_surface ? down[v] : inner_down[v]);
+      levels[v][direction_] =
+          is_free_[v] != 0 ? Levels::kFree
+                           : static_cast<std::uint8_t>((2U * where_.layers * to_floor + all) / (2 * all));
     }
   }
-  return count;
-}
+
+ private:
+  [[nodiscard]] bool is_floor(Vertex v) const { return where_.walls.is_floor(v, direction_); }
+  [[nodiscard]] bool is_ceiling(Vertex v) const { return where_.walls.is_ceiling(v, direction_); }
+
+  // Over vertices that are neither floor nor ceiling.
+  template <typename IsFirst>
+  [[nodiscard]] Counts count_along_facets(const IsFirst& is_first) const {
+    return count_edges(is_first, [&](Vertex v, const auto& act) {
+      if (is_first(v) || !(is_floor(v) || is_ceiling(v)))
+        for (const Walls::Edge& e : where_.walls.joined_to(v)) act(e[1]);
+    });
+  }
+
+  void find_free(const Counts& up, const Counts& down, std::vector<std::uint8_t>& at_rims) {
+    is_free_.assign(mesh_.vertex_count(), 0);
+    for (const Vertex v : vertices_) {
+      const bool is_at_rim = up[v] + down[v] < where_.layers;
+      is_free_[v] = is_at_rim || where_.walls.is_both(v, direction_) ? 1 : 0;
+      if (is_at_rim) at_rims[v] = 1;
+    }
+  }
+
+  // Over vertices of the region that are not free.
+  template <typename IsFirst>
+  [[nodiscard]] Counts count_inside(const IsFirst& is_first) const {
+    std::vector<Tet> tets;
+    const auto is_counted = [&](Vertex v) { return is_free_[v] == 0 && is_first(v); };
+    return count_edges(is_counted, [&](Vertex v, const auto& act) {
+      tets.clear();
+      ball(mesh_, v, tets);
+      for (const Tet t : tets)
+        if (!mesh_.is_ghost(t) && where_.volume.region_of[t] == where_.region)
+          for (const Vertex w : mesh_.corners(t))
+            if (is_free_[w] == 0) act(w);
+    });
+  }
+
+  // Counts edges to the nearest `first` vertex, over the vertices to which `for_each_next` leads.
+  template <typename IsFirst, typename ForEachNext>
+  [[nodiscard]] Counts count_edges(const IsFirst& is_first, const ForEachNext& for_each_next) const {
+    Counts count(mesh_.vertex_count(), where_.layers);
+    std::vector<Vertex> front, next;
+    for (const Vertex v : vertices_)
+      if (is_first(v)) {
+        count[v] = 0;
+        front.push_back(v);
+      }
+    for (std::uint8_t far = 1; far < where_.layers && !front.empty(); ++far, front.swap(next)) {
+      next.clear();
+      for (const Vertex v : front) {
+        where_.monitor.poll_again();
+        for_each_next(v, [&](Vertex w) {
+          if (count[w] <= far) return;
+          count[w] = far;
+          next.push_back(w);
+        });
+      }
+    }
+    return count;
+  }
+
+  const BetweenWalls& where_;
+  TetMesh& mesh_;
+  const std::span<const Vertex> vertices_;
+  const std::size_t direction_;
+  std::vector<std::uint8_t> is_free_;  // by vertex
+};
 
 }  // namespace
 
-bool number_levels(const VolumeData& volume, RegionId region, const Walls& walls,
-                   std::span<const Vertex> vertices, std::size_t k, std::uint8_t layers, Levels& levels,
-                   std::vector<std::uint8_t>& at_rims, Monitor& monitor) {
-  TetMesh& mesh = volume.mesh;
-  const auto floor = [&](Vertex v) { return walls.is_floor(v, k); };
-  const auto ceiling = [&](Vertex v) { return walls.is_ceiling(v, k); };
-  if (std::none_of(vertices.begin(), vertices.end(), floor) ||
-      std::none_of(vertices.begin(), vertices.end(), ceiling))
-    return false;
-  // Along vertices that are neither.
-  const auto along_facets = [&](const auto& is_first) {
-    return count_edges(mesh.vertex_count(), vertices, layers, monitor, is_first,
-                       [&](Vertex v, const auto& act) {
-                         if (is_first(v) || !(floor(v) || ceiling(v)))
-                           for (const Walls::Edge& e : walls.joined_to(v)) act(e[1]);
-                       });
-  };
-  Counts up = along_facets(floor), down = along_facets(ceiling);
-  std::vector<std::uint8_t> is_free(mesh.vertex_count(), 0);
-  for (const Vertex v : vertices) {
-    const bool is_at_rim = up[v] + down[v] < layers;
-    is_free[v] = is_at_rim || walls.is_both(v, k) ? 1 : 0;
-    if (is_at_rim) at_rims[v] = 1;
-  }
-  std::vector<Tet> tets;
-  const auto inside = [&](const auto& is_first) {
-    const auto is_counted = [&](Vertex v) { return is_free[v] == 0 && is_first(v); };
-    return count_edges(mesh.vertex_count(), vertices, layers, monitor, is_counted,
-                       [&](Vertex v, const auto& act) {
-                         tets.clear();
-                         ball(mesh, v, tets);
-                         for (const Tet t : tets)
-                           if (!mesh.is_ghost(t) && volume.region_of[t] == region)
-                             for (const Vertex w : mesh.corners(t))
-                               if (is_free[w] == 0) act(w);
-                       });
-  };
-  const Counts inner_up = inside(floor), inner_down = inside(ceiling);
-  for (const Vertex v : vertices) {
-    const bool on_surface = walls.is_on_surface(v);
-    const unsigned to_floor = on_surface ? up[v] : inner_up[v];
-    const unsigned all = to_floor + (on_surface ? down[v] : inner_down[v]);
-    levels[v][k] = is_free[v] != 0 ? Levels::kFree
-                                   : static_cast<std::uint8_t>((2U * layers * to_floor + all) / (2 * all));
-  }
+bool number_levels(const BetweenWalls& where, std::span<const Vertex> vertices, std::size_t direction,
+                   Levels& levels, std::vector<std::uint8_t>& at_rims) {
+  LevelNumbering numbering(where, vertices, direction);
+  if (!numbering.has_floors_and_ceilings()) return false;
+  numbering.run(levels, at_rims);
   return true;
 }
 

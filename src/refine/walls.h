@@ -51,11 +51,19 @@ class Walls {
   std::vector<Edge> edges_;   // of facets, each both ways, ascending
 };
 
-/// Gives levels from 0 to `layers` in direction k to the vertices of a region, in ascending order; none to
+/// A region that gets layers between its walls.
+struct BetweenWalls {
+  const VolumeData& volume;
+  RegionId region;
+  const Walls& walls;
+  std::uint8_t layers;
+  Monitor& monitor;
+};
+
+/// Gives levels from 0 to `layers` in a direction to the vertices of the region, in ascending order; none to
 /// those at rims, which `at_rims`, by vertex, takes note of. Returns whether there are both floors and
-/// ceilings.
-bool number_levels(const VolumeData& volume, RegionId region, const Walls& walls,
-                   std::span<const Vertex> vertices, std::size_t k, std::uint8_t layers, Levels& levels,
-                   std::vector<std::uint8_t>& at_rims, Monitor& monitor);
+/// ceilings; if not, nothing changes.
+bool number_levels(const BetweenWalls& where, std::span<const Vertex> vertices, std::size_t direction,
+                   Levels& levels, std::vector<std::uint8_t>& at_rims);
 
 }  // namespace holdfast

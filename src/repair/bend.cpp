@@ -10,6 +10,7 @@
 
 #include "numbers/sorted.h"
 #include "repair/bent.h"
+#include "repair/derived_facets.h"
 #include "repair/near.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
@@ -31,7 +32,7 @@ bool holds(const Box& box, const Point& p) {
   return true;
 }
 
-// --- 1. What is near --------------------------------------------------------------------------------------
+// --- 1. What is near
 
 bool is_near(const State& state, Index v, const Triangle& facet, double distance) {
   const auto at = [&](Index w) -> const Point& { return state.vertices[w]; };
@@ -48,7 +49,7 @@ bool is_near(const State& state, Index v, const Triangle& facet, double distance
 std::vector<std::vector<Index>> list_near(const State& state, const Trouble& trouble,
                                           std::span<const Index> vertices, double gap, Work& work,
                                           const Step& step) {
-  constexpr double kRoom = 4;
+  constexpr double kRoom = 4;       // gaps: bending may bring vertices nearer by some
   constexpr std::size_t kWork = 4;  // relative to finding a pair
   std::vector<Box> boxes;
   for (const Index v : vertices) boxes.push_back(box_round(state, std::array{v}, 0));
@@ -118,7 +119,6 @@ void begin(const State& state, const Trouble& trouble, std::span<const Index> ve
 }
 
 // --- 2. and 3. Sides and facets
-// -----------------------------------------------------------------------------
 
 /// One side at a time is led through one vertex, in all facets that have the side: (a b x) becomes (a p x)
 /// and (p b x), and vanishes if x is p. So the boundary of the facets stays the same, and closed surfaces
@@ -273,8 +273,7 @@ class Bending {
   Work& work_;
 };
 
-// --- The result
-// ---------------------------------------------------------------------------------------------
+// --- the result
 
 void deliver_facets(const BentSurface& bent, State& state) {
   std::vector<std::array<Index, 2>> parts;  // {first origin, in the bent surface}
@@ -285,21 +284,12 @@ void deliver_facets(const BentSurface& bent, State& state) {
   }
   std::sort(parts.begin(), parts.end());
   auto part = parts.begin();
-  std::vector<Triangle> facets;
-  Parents parents;
+  DerivedFacets facets(state);
   std::vector<std::uint8_t> known;
   std::vector<Index> sheet;
-  std::vector<Index> list;
   const auto take = [&](const Triangle& t, std::span<const Index> origins) {
     const Index f = origins[0];
-    facets.push_back(t);
-    list.clear();
-    for (const Index origin : origins) {
-      const auto of = state.facet_parents.of(origin);
-      list.insert(list.end(), of.begin(), of.end());
-    }
-    sort_unique(list);
-    parents.add(list);
+    facets.add(t, origins);
     const bool same = origins.size() == 1 && t == state.facets[f];
     if (!state.known.empty()) known.push_back(same ? state.known[f] : 0);
     if (!state.sheet.empty()) sheet.push_back(same ? state.sheet[f] : no_index);
@@ -313,8 +303,7 @@ void deliver_facets(const BentSurface& bent, State& state) {
     for (; part != parts.end() && (*part)[0] == f; ++part)
       take(bent.facet((*part)[1]).corners, bent.facet((*part)[1]).origins);
   }
-  state.facets = std::move(facets);
-  state.facet_parents = std::move(parents);
+  std::move(facets).move_to(state);
   state.known = std::move(known);
   state.sheet = std::move(sheet);
 }

@@ -97,7 +97,7 @@ BentSurface::AtSide& BentSurface::note(const Side& side, bool is_idle) {
   const bool was_there = std::exchange(note.is_there, true);
   if (!was_there) note.is_queued = false;
   if (is_idle || note.is_queued) return note.at;
-  const Waiting waiting(length(minus(vertices_[side[0]], vertices_[side[1]])), side);
+  const Waiting waiting(length(vertices_[side[0]] - vertices_[side[1]]), side);
   // The turn of a side that was idle is past when a shorter one was looked at.
   if (was_there && least_ && *least_ < waiting) return note.at;
   note.is_queued = true;

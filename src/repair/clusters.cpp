@@ -71,15 +71,26 @@ bool lies_in(const State& state, const Planes& planes, Index f, Index g, double 
   if (!(size > 0)) return false;
   const Triangle& corners = state.facets[g];
   const Point& origin = state.vertices[corners[0]];
-  const auto is_near = [&](Index v) {
-    return std::fabs(dot(minus(state.vertices[v], origin), n)) / size <= gap;
-  };
+  const auto is_near = [&](Index v) { return std::fabs(dot(state.vertices[v] - origin, n)) / size <= gap; };
   // Most pairs are neighbours: their unshared corners come first.
   const auto is_shared = [&](Index v) { return v == corners[0] || v == corners[1] || v == corners[2]; };
   for (const bool shared : {false, true})
     for (const Index v : state.facets[f])
       if (is_shared(v) == shared && !is_near(v)) return false;
   return true;
+}
+
+/// Whether two facets share area, up to the gap.
+bool share_area(const State& state, const Planes& planes, Index f, Index g, double gap) {
+  const bool are_parts_of_one =
+      !state.sheet.empty() && state.sheet[f] != no_index && state.sheet[f] == state.sheet[g];
+  if (are_parts_of_one) return false;
+  const bool in_g = lies_in(state, planes, f, g, gap), in_f = lies_in(state, planes, g, f, gap);
+  if (!in_g && !in_f) return false;
+  const unsigned axis = axis_of(planes.normal[in_g ? g : f]);
+  if (overlap(state, f, g, axis)) return true;
+  const unsigned other = axis_of(planes.normal[f]);
+  return in_g && in_f && other != axis && overlap(state, f, g, other);
 }
 
 /// Facets whose corners exist and are finite, and boxes round them. If `some` are few, only the facets near
@@ -124,51 +135,9 @@ void keep_projected(const State& state, const Planes& planes, Cluster& cluster) 
   });
 }
 
-}  // namespace
-
-Vector normal_of(const State& state, Index facet) {
-  const auto& [a, b, c] = state.facets[facet];
-  const std::vector<Point>& at = state.vertices;
-  return cross(minus(at[b], at[a]), minus(at[c], at[a]));
-}
-
-Clusters find_clusters(const State& state, double gap, std::span<const Index> some, const Step& step) {
-  std::vector<std::uint8_t> is_some(state.facets.size(), some.empty() ? 1 : 0);
-  for (const Index f : some) is_some[f] = 1;
-  const auto near = boxes_near(state, gap, some);
-  const std::vector<Index>& facet = near.first;
-  const std::vector<Box>& boxes = near.second;
-  const Planes planes(state, facet);
-  const auto are_parts_of_one = [&](Index f, Index g) {
-    return !state.sheet.empty() && state.sheet[f] != no_index && state.sheet[f] == state.sheet[g];
-  };
-  const auto share_area = [&](Index f, Index g) {
-    if (are_parts_of_one(f, g)) return false;
-    const bool in_g = lies_in(state, planes, f, g, gap), in_f = lies_in(state, planes, g, f, gap);
-    if (!in_g && !in_f) return false;
-    const unsigned axis = axis_of(planes.normal[in_g ? g : f]);
-    if (overlap(state, f, g, axis)) return true;
-    const unsigned other = axis_of(planes.normal[f]);
-    return in_g && in_f && other != axis && overlap(state, f, g, other);
-  };
-  DisjointSets sets(state.facets.size());
-  std::set<Index> together;
-  const FlatFans fans(state, facet, planes.axes_of(facet));
-  const AabbTree tree(boxes, fans.first());
-  NodeGroups in_fans(tree, fans.of());
-  tree.for_each_overlap(
-      [&](Index i, Index j) {
-        const Index f = facet[i], g = facet[j];
-        if (is_some[f] + is_some[g] == 0) return true;
-        if (!fans.of().empty() && NodeGroups::share_any(fans.of()[i], fans.of()[j])) return true;
-        if (sets.root(f) != sets.root(g) && share_area(f, g)) {
-          sets.unite(f, g);
-          together.insert(f);
-          together.insert(g);
-        }
-        return true;
-      },
-      [&](Index a, Index b) { return in_fans.share(a, b); }, step);
+/// The sets of facets that share area, each projected.
+Clusters clusters_of(const State& state, const Planes& planes, const std::set<Index>& together,
+                     DisjointSets& sets) {
   std::map<Index, Cluster> by_first;
   for (const Index f : together) by_first[sets.root(f)].facets.push_back(f);
   Clusters found;
@@ -178,6 +147,42 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
     if (cluster.facets.size() > 1) found.all.push_back(std::move(cluster));
   }
   return found;
+}
+
+}  // namespace
+
+Vector normal_of(const State& state, Index facet) {
+  const auto& [a, b, c] = state.facets[facet];
+  const std::vector<Point>& at = state.vertices;
+  return cross(at[b] - at[a], at[c] - at[a]);
+}
+
+Clusters find_clusters(const State& state, double gap, std::span<const Index> some, const Step& step) {
+  std::vector<std::uint8_t> is_some(state.facets.size(), some.empty() ? 1 : 0);
+  for (const Index f : some) is_some[f] = 1;
+  const auto near = boxes_near(state, gap, some);
+  const std::vector<Index>& facet = near.first;
+  const std::vector<Box>& boxes = near.second;
+  const Planes planes(state, facet);
+  const FlatFans fans(state, facet, planes.axes_of(facet));
+  const AabbTree tree(boxes, fans.first());
+  NodeGroups in_fans(tree, fans.of());
+  DisjointSets sets(state.facets.size());
+  std::set<Index> together;
+  const auto compare = [&](Index i, Index j) {
+    const Index f = facet[i], g = facet[j];
+    if (is_some[f] + is_some[g] == 0) return true;
+    if (!fans.of().empty() && NodeGroups::share_any(fans.of()[i], fans.of()[j])) return true;
+    if (sets.root(f) != sets.root(g) && share_area(state, planes, f, g, gap)) {
+      sets.unite(f, g);
+      together.insert(f);
+      together.insert(g);
+    }
+    return true;
+  };
+  tree.for_each_overlap(
+      compare, [&](Index a, Index b) { return in_fans.share(a, b); }, step);
+  return clusters_of(state, planes, together, sets);
 }
 
 }  // namespace holdfast::repairing

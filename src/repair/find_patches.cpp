@@ -79,7 +79,7 @@ bool overlap(const PartFacets& facets, Index f, Index g, double gap, double roun
   const Triangle &t = facets.corners(f), &u = facets.corners(g);
   const auto lies_in = [&](const Triangle& inner, const Triangle& outer, const PlaneOf& plane) {
     return std::all_of(inner.begin(), inner.end(), [&](Index v) {
-      return std::fabs(dot(minus(facets.at(v), facets.at(outer[0])), plane.normal)) <= gap;
+      return std::fabs(dot(facets.at(v) - facets.at(outer[0]), plane.normal)) <= gap;
     });
   };
   const bool is_near = gap > rounding && touch(facets, t, u, gap);

@@ -138,7 +138,7 @@ class Fins {
 
   /// The distance of a vertex from a side, rounded up.
   [[nodiscard]] double distance(Index v, Index a, Index b) const {
-    const double to_ends = std::min(length(minus(at(v), at(a))), length(minus(at(v), at(b)))) * (1 + 0x1p-48);
+    const double to_ends = std::min(length(at(v) - at(a)), length(at(v) - at(b))) * (1 + 0x1p-48);
     return std::min(beside_side(at(v), at(a), at(b)).bound(), to_ends);
   }
 
@@ -191,7 +191,7 @@ class Fins {
   [[nodiscard]] bool is_led(Index from, Index to, double most) const {
     const Point &a = given_.vertices[from], &b = given_.vertices[to];
     const auto is_near = [&](Index v) {
-      const double to_ends = std::min(length(minus(at(v), a)), length(minus(at(v), b))) * (1 + 0x1p-48);
+      const double to_ends = std::min(length(at(v) - a), length(at(v) - b)) * (1 + 0x1p-48);
       return std::min(beside_side(at(v), a, b).bound(), to_ends) <= most;
     };
     std::vector<Index> open{first_[from]};

@@ -9,7 +9,7 @@
 namespace holdfast::repairing {
 namespace {
 
-constexpr std::size_t kLeast = 12;
+constexpr std::size_t kLeast = 12;  // facets of a fan: fewer have few pairs to leave out
 
 /// A facet at a vertex, which may be part of a fan.
 struct Blade {

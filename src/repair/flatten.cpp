@@ -180,7 +180,7 @@ class Flattening {
       }
       any = true;
       const Index v = places[first].second, w = places[k].second;
-      if (length(minus(at(v), at(w))) <= gap_) sides_.unite(v, w, state_.input_vertices);
+      if (length(at(v) - at(w)) <= gap_) sides_.unite(v, w, state_.input_vertices);
     }
     return any;
   }
@@ -217,8 +217,7 @@ class Flattening {
       const Index v = name[k];
       Point flat_a = a, flat_b = b, flat_v = at(v);
       flat_a[cluster.axis] = flat_b[cluster.axis] = flat_v[cluster.axis] = 0;
-      const double share =
-          std::clamp(length(minus(flat_v, flat_a)) / length(minus(flat_b, flat_a)), 0.0, 1.0);
+      const double share = std::clamp(length(flat_v - flat_a) / length(flat_b - flat_a), 0.0, 1.0);
       if (lifted_.erase(v) != 0)
         state_.vertices[v][cluster.axis] = a[cluster.axis] + share * (b[cluster.axis] - a[cluster.axis]);
       most_ = std::max(most_, distance(v, side));
@@ -242,7 +241,7 @@ class Flattening {
   [[nodiscard]] double above(Index f, const Point& p, unsigned axis) const {
     const auto& [a, b, c] = state_.facets[f];
     const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-    const Vector u = minus(at(b), at(a)), v = minus(at(c), at(a)), w = minus(p, at(a));
+    const Vector u = at(b) - at(a), v = at(c) - at(a), w = p - at(a);
     const double area = u[x] * v[y] - u[y] * v[x];
     const double s = (w[x] * v[y] - w[y] * v[x]) / area, t = (u[x] * w[y] - u[y] * w[x]) / area;
     const double z = at(a)[axis] + s * u[axis] + t * v[axis];
@@ -296,7 +295,7 @@ Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sid
 }
 
 Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step) {
-  constexpr int kPasses = 4;
+  constexpr int kPasses = 4;  // flattening one cluster may bring others near
   Flattened all;
   std::vector<Index> some;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -12,7 +12,7 @@
 #include <limits>
 #include <map>
 
-#include "numbers/sorted.h"
+#include "repair/derived_facets.h"
 #include "repair/led_sides.h"
 #include "repair/part_facets.h"
 #include "repair/patches.h"
@@ -37,31 +37,19 @@ void deliver(const PartFacets& facets_of_parts, const LedSides& sides, const Pat
              const std::vector<Pasted>& pasted, State& state) {
   std::map<Index, std::vector<const Pasted*>> of_patch;  // by first facet
   for (const Pasted& p : pasted) of_patch[p.facets[0]].push_back(&p);
-  std::vector<Triangle> facets, pieces;
-  Parents parents;
-  std::vector<Index> list;
-  const auto take = [&](const Triangle& t, std::span<const Index> of) {
-    facets.push_back(t);
-    list.clear();
-    for (const Index f : of) {
-      const auto own = state.facet_parents.of(f);
-      list.insert(list.end(), own.begin(), own.end());
-    }
-    sort_unique(list);
-    parents.add(list);
-  };
+  DerivedFacets facets(state);
+  std::vector<Triangle> pieces;
   for (Index f = 0; f < state.facets.size(); ++f) {
     if (patches.of[f] != no_index) {
       if (const auto own = of_patch.find(f); own != of_patch.end())
-        for (const Pasted* p : own->second) take(p->corners, p->facets);
+        for (const Pasted* p : own->second) facets.add(p->corners, p->facets);
       continue;
     }
     pieces.assign(1, state.facets[f]);
     if (facets_of_parts.plane(f)) pieces = sides.split(state.facets[f]);
-    for (const Triangle& t : pieces) take(t, std::array{f});
+    for (const Triangle& t : pieces) facets.add(t, std::array{f});
   }
-  state.facets = std::move(facets);
-  state.facet_parents = std::move(parents);
+  std::move(facets).move_to(state);
   state.doubt_all();
   drop_unused(state);
 }

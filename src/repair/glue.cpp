@@ -1,9 +1,13 @@
 #include "repair/glue.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "numbers/sorted.h"
+#include "repair/derived_facets.h"
 #include "surface/complex.h"
 #include "surface/places.h"
 
@@ -39,25 +43,32 @@ class ByCorners {
   std::vector<Index> order_;
 };
 
-}  // namespace
+/// Which facets become one.
+class Gluing {
+ public:
+  Gluing(const State& state, std::span<const Index> part)
+      : state_(state), part_(part), is_gone_(state.facets.size(), 0) {
+    ByCorners(state).for_each_repeated([this](std::span<const Index> same) { join(same); });
+  }
 
-void glue(State& state, std::span<const Index> part) {
-  std::vector<Index> into(state.facets.size());
-  std::iota(into.begin(), into.end(), Index{0});
-  std::vector<std::vector<Index>> joined(0);
-  std::vector<Index> slot(state.facets.size(), no_index);  // in `joined`
-  const auto parts_of = [&](Index f) {
-    std::vector<Index> parts;
-    const auto add = [&](std::span<const Index> parents) {
-      for (const Index p : parents) parts.push_back(part[p]);
-    };
-    add(state.facet_parents.of(f));
-    if (slot[f] != no_index)
-      for (const Index g : joined[slot[f]]) add(state.facet_parents.of(g));
-    sort_unique(parts);
-    return parts;
-  };
-  ByCorners(state).for_each_repeated([&](std::span<const Index> same) {
+  [[nodiscard]] bool is_empty() const { return joined_.empty(); }
+
+  void deliver(State& state) const {
+    DerivedFacets facets(state);
+    std::vector<std::uint8_t> known;
+    for (Index f = 0; f < state.facets.size(); ++f) {
+      if (is_gone_[f] != 0) continue;
+      facets.add(state.facets[f], with_joined(f));
+      if (!state.known.empty()) known.push_back(state.known[f]);
+    }
+    std::move(facets).move_to(state);
+    state.known = std::move(known);
+    state.sheet.clear();
+  }
+
+ private:
+  /// Each of these facets becomes one with the first that has none of its parts.
+  void join(std::span<const Index> same) {
     std::vector<Index> kept;
     for (const Index f : same) {
       const std::vector<Index> own = parts_of(f);
@@ -70,35 +81,38 @@ void glue(State& state, std::span<const Index> part) {
         kept.push_back(f);
         continue;
       }
-      into[f] = *other;
-      if (slot[*other] == no_index) {
-        slot[*other] = static_cast<Index>(joined.size());
-        joined.emplace_back();
-      }
-      joined[slot[*other]].push_back(f);
+      is_gone_[f] = 1;
+      joined_[*other].push_back(f);
     }
-  });
-  if (joined.empty()) return;
-
-  std::vector<Triangle> facets;
-  Parents parents;
-  std::vector<std::uint8_t> known;
-  std::vector<Index> list;
-  for (Index f = 0; f < state.facets.size(); ++f) {
-    if (into[f] != f) continue;
-    facets.push_back(state.facets[f]);
-    list.assign(state.facet_parents.of(f).begin(), state.facet_parents.of(f).end());
-    if (slot[f] != no_index)
-      for (const Index g : joined[slot[f]])
-        list.insert(list.end(), state.facet_parents.of(g).begin(), state.facet_parents.of(g).end());
-    sort_unique(list);
-    parents.add(list);
-    if (!state.known.empty()) known.push_back(state.known[f]);
   }
-  state.facets = std::move(facets);
-  state.facet_parents = std::move(parents);
-  state.known = std::move(known);
-  state.sheet.clear();
+
+  /// A facet and those that became one with it.
+  [[nodiscard]] std::vector<Index> with_joined(Index f) const {
+    std::vector<Index> all{f};
+    if (const auto found = joined_.find(f); found != joined_.end())
+      all.insert(all.end(), found->second.begin(), found->second.end());
+    return all;
+  }
+
+  [[nodiscard]] std::vector<Index> parts_of(Index f) const {
+    std::vector<Index> parts;
+    for (const Index g : with_joined(f))
+      for (const Index p : state_.facet_parents.of(g)) parts.push_back(part_[p]);
+    sort_unique(parts);
+    return parts;
+  }
+
+  const State& state_;
+  const std::span<const Index> part_;  // by parent
+  std::vector<std::uint8_t> is_gone_;
+  std::map<Index, std::vector<Index>> joined_;  // by the facet that is kept
+};
+
+}  // namespace
+
+void glue(State& state, std::span<const Index> part) {
+  const Gluing gluing(state, part);
+  if (!gluing.is_empty()) gluing.deliver(state);
 }
 
 }  // namespace holdfast::repairing

@@ -61,7 +61,7 @@ double snap_to_grid(State& state, const Trouble& trouble, double cell) {
     if (p == q && first == v) continue;
     becomes[v] = first;
     goes.emplace(p, q);
-    most = std::max(most, length(minus(p, q)) * (1 + 0x1p-48));
+    most = std::max(most, length(p - q) * (1 + 0x1p-48));
     p = q;
   }
   // Vertices that were joined with one of these earlier keep their place.

@@ -163,6 +163,43 @@ std::set<std::size_t> unfit(const State& state, std::size_t before,
   return found;
 }
 
+/// Fills each hole by itself. Those that stay open are noted in `holes`.
+std::vector<Filling> fillings_of(const State& state, std::size_t most_sides, const Step& step, Holes& holes) {
+  std::vector<Filling> fillings;
+  for (Loop& loop : border_loops(state.complex())) {
+    step(0.9);
+    if (loop.size() > most_sides) {
+      holes.left_open.push_back({std::move(loop), OpenReason::too_many_sides});
+    } else if (std::optional<Filling> filling = filling_of(state, loop, step)) {
+      fillings.push_back(std::move(*filling));
+    } else {
+      holes.left_open.push_back({std::move(loop), OpenReason::no_filling});
+    }
+  }
+  return fillings;
+}
+
+/// Adds the facets of fillings to the surface, and leaves out fillings until the rest fits together.
+void add_fitting(State& state, std::vector<Filling>& fillings, const Step& step, const Threads& threads,
+                 Holes& holes) {
+  const std::size_t before = state.facets.size();
+  for (;;) {
+    std::vector<std::size_t> filling_with;
+    state.facets.resize(before);
+    for (std::size_t k = 0; k < fillings.size(); ++k)
+      for (const Triangle& t : fillings[k].facets) {
+        state.facets.push_back(t);
+        filling_with.push_back(k);
+      }
+    const std::set<std::size_t> bad = unfit(state, before, filling_with, step, threads);
+    if (bad.empty()) return;
+    for (auto k = bad.rbegin(); k != bad.rend(); ++k) {
+      holes.left_open.push_back({std::move(fillings[*k].loop), OpenReason::meets_surface});
+      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(*k));
+    }
+  }
+}
+
 /// Facets grouped in parts that are connected by sides.
 std::vector<std::vector<Index>> connected_parts(const State& state, std::span<const Index> facets) {
   DisjointSets sets(facets.size());
@@ -193,33 +230,9 @@ std::vector<Index> numbers_of(std::span<const Index> of, std::span<const Index> 
 
 Holes fill_holes(State& state, std::size_t most_sides, const Step& step, const Threads& threads) {
   Holes holes;
-  std::vector<Filling> fillings;
-  for (Loop& loop : border_loops(state.complex())) {
-    step(0.9);
-    if (loop.size() > most_sides) {
-      holes.left_open.push_back({std::move(loop), OpenReason::too_many_sides});
-    } else if (std::optional<Filling> filling = filling_of(state, loop, step)) {
-      fillings.push_back(std::move(*filling));
-    } else {
-      holes.left_open.push_back({std::move(loop), OpenReason::no_filling});
-    }
-  }
+  std::vector<Filling> fillings = fillings_of(state, most_sides, step, holes);
   const std::size_t before = state.facets.size();
-  for (;;) {
-    std::vector<std::size_t> filling_with;
-    state.facets.resize(before);
-    for (std::size_t k = 0; k < fillings.size(); ++k)
-      for (const Triangle& t : fillings[k].facets) {
-        state.facets.push_back(t);
-        filling_with.push_back(k);
-      }
-    const std::set<std::size_t> bad = unfit(state, before, filling_with, step, threads);
-    if (bad.empty()) break;
-    for (auto k = bad.rbegin(); k != bad.rend(); ++k) {
-      holes.left_open.push_back({std::move(fillings[*k].loop), OpenReason::meets_surface});
-      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(*k));
-    }
-  }
+  add_fitting(state, fillings, step, threads, holes);
   auto next = static_cast<Index>(before);
   for (const Filling& filling : fillings) {
     RepairResult::Filled& entry = holes.filled.emplace_back();

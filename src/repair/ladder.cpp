@@ -12,6 +12,12 @@
 #include "repair/weld.h"
 
 namespace holdfast::repairing {
+namespace {
+
+// If so many times as many elements are in trouble as before, an attempt is given up.
+constexpr std::size_t kTooMuch = 4;
+
+}  // namespace
 
 Ladder::Ladder(State state, const RepairOptions& options, const RepairReport& report, const Exact& exact,
                RoundedPlanes& planes, const Step& step, const Threads& threads)
@@ -177,7 +183,6 @@ void Ladder::join(const Plan& plan) {
              most_facets_};
   report_.rung = plan.moves_input ? Rung::snapped : Rung::coarser;
   constexpr int kPasses = 8, kPassesInVain = 4;
-  constexpr std::size_t kTooMuch = 4;
   Attempt now{rounded_.state, trouble_, rounded_.displacement};
   Work work{std::min(work_.left(), kMuchWork.of(now.state.facets.size()))};
   int in_vain = 0;
@@ -256,9 +261,9 @@ void Ladder::flatten_again(const Plan& plan) {
     has_led_ |= now.has_led;
     if (now.moved == 0) return;
     flat.displacement = sum_above(flat.displacement, now.moved);
-    flat.trouble = trouble_of(flat.state, here(), threads_, 4 * trouble_.size());
+    flat.trouble = trouble_of(flat.state, here(), threads_, kTooMuch * trouble_.size());
     if (flat.trouble.size() < trouble_.size()) return stand(std::move(flat));
-    if (flat.trouble.size() > 4 * trouble_.size()) return;
+    if (flat.trouble.size() > kTooMuch * trouble_.size()) return;
   }
 }
 

@@ -177,9 +177,9 @@ class Ladder {
   bool is_plane_ = false;
   bool joins_all_ = true;
   double welded_last_bits_ = 0;
-  bool is_welded_ = false;                             // kWeldedPlans were tried
-  std::size_t next_plan_ = 0, plans_ = kPlans.size();  // in kPlans: the next one, and the number of plans to
-                                                       // try
+  bool is_welded_ = false;  // kWeldedPlans were tried
+  // Of kPlans: the next one, and how many to try.
+  std::size_t next_plan_ = 0, plans_ = kPlans.size();
   bool has_led_ = false;
   Work work_;  // of joining
   double most_displacement_ = std::numeric_limits<double>::infinity();

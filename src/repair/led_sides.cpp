@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "numbers/sorted.h"
-#include "surface/aabb_tree.h"
+#include "surface/box_pairs.h"
 #include "surface/complex.h"
 
 namespace holdfast::repairing {
@@ -37,40 +37,21 @@ void LedSides::put_vertices(std::span<const Index> close, const Step& step) {
   for (const Index f : close)
     vertices.insert(vertices.end(), facets_.corners(f).begin(), facets_.corners(f).end());
   sort_unique(vertices);
-  std::vector<Box> boxes;
-  boxes.reserve(vertices.size() + sides_.size());
+  std::vector<Box> round_vertices, round_sides;
   std::vector<Sides::iterator> sides;
-  for (const Index v : vertices) boxes.push_back(box_round(facets_.state(), std::array{v}, gap_));
+  for (const Index v : vertices) round_vertices.push_back(box_round(facets_.state(), std::array{v}, gap_));
   for (auto side = sides_.begin(); side != sides_.end(); ++side) {
     sides.push_back(side);
-    boxes.push_back(box_round(facets_.state(), side->first, 0));
+    round_sides.push_back(box_round(facets_.state(), side->first, 0));
   }
-  struct Best {
-    double distance, t;
-    Sides::iterator side;
+  NearestSides nearest;
+  const auto compare = [&](Index i, Index j) {
+    note_nearness(vertices[i], sides[j], nearest);
+    return true;
   };
-  std::map<std::pair<Index, Index>, Best> best;  // by vertex and part
-  const auto first = static_cast<Index>(vertices.size());
-  AabbTree(boxes).for_each_overlap(
-      [&](Index i, Index j) {
-        if (i > j) std::swap(i, j);
-        if (i >= first || j < first) return true;
-        const Index v = vertices[i];
-        const auto side = sides[j - first];
-        const auto [a, b] = side->first;
-        if (v == a || v == b || meet(facets_.parts_at(v), side->second.parts)) return true;
-        const Nearness near = beside_side(at(v), at(a), at(b));
-        if (!(near.distance <= gap_) || is_led_back(v, a) || is_led_back(v, b)) return true;
-        for (const Index p : side->second.parts) {
-          const auto [there, is_new] = best.try_emplace({v, p}, Best{near.distance, near.t, side});
-          if (!is_new && std::pair(near.distance, side->first) <
-                             std::pair(there->second.distance, there->second.side->first))
-            there->second = {near.distance, near.t, side};
-        }
-        return true;
-      },
-      [](Index, Index) { return false; }, step);
-  for (const auto& [key, found] : best) {
+  for_each_overlap_between(std::move(round_vertices), round_sides, compare, step);
+
+  for (const auto& [key, found] : nearest) {
     on_side_.insert(key);
     auto& points = found.side->second.points;
     const std::pair<double, Index> point{found.t, key.first};
@@ -79,10 +60,22 @@ void LedSides::put_vertices(std::span<const Index> close, const Step& step) {
   }
 }
 
-// Two vertices within the gap may each pass a side of the other; then the later vertex goes on the side.
-bool LedSides::is_led_back(Index v, Index end) const {
-  return v < end && length(minus(at(v), at(end))) <= gap_;
+void LedSides::note_nearness(Index v, Sides::iterator side, NearestSides& nearest) const {
+  const auto [a, b] = side->first;
+  if (v == a || v == b || meet(facets_.parts_at(v), side->second.parts)) return;
+  const Nearness near = beside_side(at(v), at(a), at(b));
+  if (!(near.distance <= gap_) || is_led_back(v, a) || is_led_back(v, b)) return;
+  for (const Index p : side->second.parts) {
+    const NearSide found{near.distance, near.t, side};
+    const auto [there, is_new] = nearest.try_emplace({v, p}, found);
+    const NearSide& known = there->second;
+    if (!is_new && std::pair(near.distance, side->first) < std::pair(known.distance, known.side->first))
+      there->second = found;
+  }
 }
+
+// Two vertices within the gap may each pass a side of the other; then the later vertex goes on the side.
+bool LedSides::is_led_back(Index v, Index end) const { return v < end && length(at(v) - at(end)) <= gap_; }
 
 bool LedSides::has(const Side& side, const OnSide& on, Index v) {
   return v == side[0] || v == side[1] ||
@@ -104,11 +97,6 @@ void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
     sides.push_back(side);
     boxes.push_back(box_round(facets_.state(), side->first, gap_ / 2));
   }
-  struct Crossing {
-    Index first, second;
-    double t, s;
-    Point where;
-  };
   std::vector<Crossing> crossings;
   AabbTree(boxes).for_each_overlap(
       [&](Index i, Index j) {
@@ -127,24 +115,29 @@ void LedSides::cross_sides(std::vector<Point>& vertices, const Step& step) {
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
     return std::pair(a.first, a.second) < std::pair(b.first, b.second);
   });
-  for (const Crossing& crossing : crossings) {
-    auto& [s, on_s] = *sides[crossing.first];
-    auto& [t, on_t] = *sides[crossing.second];
-    // If three sides meet in a point, two of them found it first.
-    Index v = near_on(s, on_s, crossing.where, t);
-    if (v == no_index) v = near_on(t, on_t, crossing.where, s);
-    if (v == no_index) {
-      v = static_cast<Index>(vertices.size());
-      vertices.push_back(crossing.where);
-    }
-    if (!has(s, on_s, v)) on_s.points.emplace_back(crossing.t, v);
-    if (!has(t, on_t, v)) on_t.points.emplace_back(crossing.s, v);
+  for (const Crossing& crossing : crossings)
+    join_at(crossing, *sides[crossing.first], *sides[crossing.second], vertices);
+}
+
+// Gives two sides a common vertex at their crossing. If three sides meet in a point, two of them found it
+// first.
+void LedSides::join_at(const Crossing& crossing, Sides::value_type& first, Sides::value_type& second,
+                       std::vector<Point>& vertices) const {
+  auto& [s, on_s] = first;
+  auto& [t, on_t] = second;
+  Index v = near_on(s, on_s, crossing.where, t);
+  if (v == no_index) v = near_on(t, on_t, crossing.where, s);
+  if (v == no_index) {
+    v = static_cast<Index>(vertices.size());
+    vertices.push_back(crossing.where);
   }
+  if (!has(s, on_s, v)) on_s.points.emplace_back(crossing.t, v);
+  if (!has(t, on_t, v)) on_t.points.emplace_back(crossing.s, v);
 }
 
 // A vertex of one side near its crossing with another side may still be too far from the other side.
 Index LedSides::near_on(const Side& side, const OnSide& on, const Point& p, const Side& other) const {
-  const auto is_near = [&](Index v) { return length(minus(at(v), p)) <= gap_ && distance(v, other) <= gap_; };
+  const auto is_near = [&](Index v) { return length(at(v) - p) <= gap_ && distance(v, other) <= gap_; };
   for (const Index v : side)
     if (is_near(v)) return v;
   for (const auto& [t, v] : on.points)
@@ -154,8 +147,7 @@ Index LedSides::near_on(const Side& side, const OnSide& on, const Point& p, cons
 
 double LedSides::distance(Index v, const Side& side) const {
   const auto [a, b] = side;
-  return std::min(
-      {beside_side(at(v), at(a), at(b)).distance, length(minus(at(v), at(a))), length(minus(at(v), at(b)))});
+  return std::min({beside_side(at(v), at(a), at(b)).distance, length(at(v) - at(a)), length(at(v) - at(b))});
 }
 
 // A piece of a side may itself be a side that is led through vertices. If this would lead back to the first

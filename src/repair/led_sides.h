@@ -43,6 +43,20 @@ class LedSides {
   };
   using Sides = std::map<Side, OnSide>;
 
+  /// The nearest side of a part to a vertex, by vertex and part.
+  struct NearSide {
+    double distance, t;
+    Sides::iterator side;
+  };
+  using NearestSides = std::map<std::pair<Index, Index>, NearSide>;
+
+  /// Where two sides pass each other, by their numbers and the positions along them.
+  struct Crossing {
+    Index first, second;
+    double t, s;
+    Point where;
+  };
+
   /// False if the chain leads back to itself, as it may in facets thinner than the gap.
   [[nodiscard]] bool split_deeper(const Triangle& t, std::vector<Triangle>& pieces, int depth) const;
   [[nodiscard]] std::vector<Triangle> fan(const Triangle& t) const;
@@ -50,7 +64,10 @@ class LedSides {
   [[nodiscard]] const Point& at(Index v) const { return facets_.at(v); }
   void list(std::span<const Index> close);
   void put_vertices(std::span<const Index> close, const Step& step);
+  void note_nearness(Index v, Sides::iterator side, NearestSides& nearest) const;
   void cross_sides(std::vector<Point>& vertices, const Step& step);
+  void join_at(const Crossing& crossing, Sides::value_type& first, Sides::value_type& second,
+               std::vector<Point>& vertices) const;
   [[nodiscard]] bool is_led_back(Index v, Index end) const;
   [[nodiscard]] Index near_on(const Side& side, const OnSide& on, const Point& p, const Side& other) const;
   [[nodiscard]] double distance(Index v, const Side& side) const;

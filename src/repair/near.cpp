@@ -3,7 +3,7 @@
 namespace holdfast::repairing {
 
 Nearness beside_side(const Point& p, const Point& a, const Point& b) {
-  const Vector d = minus(b, a), w = minus(p, a);
+  const Vector d = b - a, w = p - a;
   const double long_d = length(d);
   Nearness near;
   near.size = std::max(long_d, length(w));
@@ -18,7 +18,7 @@ Nearness beside_side(const Point& p, const Point& a, const Point& b) {
 }
 
 Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Point& c) {
-  const Vector u = minus(b, a), v = minus(c, a), w = minus(p, a);
+  const Vector u = b - a, v = c - a, w = p - a;
   const double size = std::max({length(u), length(v), length(w)});
   Nearness near;
   near.size = size;
@@ -35,19 +35,19 @@ Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Poin
 }
 
 FarFromFacet::FarFromFacet(const Point& a, const Point& b, const Point& c, double distance) : origin_(a) {
-  const Vector u = minus(b, a), v = minus(c, a), normal = cross(u, v);
+  const Vector u = b - a, v = c - a, normal = cross(u, v);
   const double extent = length(u) + length(v), size = length(u) * length(v);
   const auto beyond = [&](const Vector& n, const Vector& at, double magnitude) {
     const double error = 0x1p-45 * magnitude;
     return Plane{n, dot(n, at) + 2 * distance * length(n) + error * extent, error};
   };
-  planes_ = {beyond(normal, {}, size), beyond(minus({}, normal), {}, size),
+  planes_ = {beyond(normal, {}, size), beyond(Vector{} - normal, {}, size),
              beyond(cross(u, normal), {}, size * extent), beyond(cross(normal, v), {}, size * extent),
-             beyond(cross(minus(v, u), normal), u, size * extent)};
+             beyond(cross(v - u, normal), u, size * extent)};
 }
 
 Passing pass(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Vector u = minus(b, a), v = minus(d, c), w = minus(c, a);
+  const Vector u = b - a, v = d - c, w = c - a;
   const double long_u = length(u), long_v = length(v);
   Passing passing;
   if (!(long_u > 0) || !(long_v > 0)) return passing;
@@ -63,12 +63,12 @@ Passing pass(const Point& a, const Point& b, const Point& c, const Point& d) {
   }
   passing.t = t;
   passing.s = s;
-  passing.distance = length(minus(passing.on_first, passing.on_second));
+  passing.distance = length(passing.on_first - passing.on_second);
   return passing;
 }
 
 double distance_above(const Point& p, const Point& a, const Point& b) {
-  const double to_ends = std::min(length(minus(p, a)), length(minus(p, b))) * (1 + 0x1p-48);
+  const double to_ends = std::min(length(p - a), length(p - b)) * (1 + 0x1p-48);
   return std::min(beside_side(p, a, b).bound(), to_ends);
 }
 
@@ -85,7 +85,7 @@ double distance_to(const Point& p, const Point& a, const Point& b, const Point& 
   take(beside_side(p, a, b).distance);
   take(beside_side(p, b, c).distance);
   take(beside_side(p, c, a).distance);
-  for (const Point* corner : {&a, &b, &c}) take(length(minus(p, *corner)));
+  for (const Point* corner : {&a, &b, &c}) take(length(p - *corner));
   return distance;
 }
 

@@ -9,17 +9,12 @@
 
 #include "holdfast/types.h"
 #include "numbers/finite.h"
+#include "numbers/vector.h"
 
 namespace holdfast::repairing {
 
-using Vector = std::array<double, 3>;
-
-inline Vector minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
-inline Vector cross(const Vector& u, const Vector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 inline Vector over(const Vector& u, double by) { return {u[0] / by, u[1] / by, u[2] / by}; }
+/// As holdfast::length, for coordinates of any size: no square over- or underflows.
 inline double length(const Vector& u) {
   const double most = std::max({std::fabs(u[0]), std::fabs(u[1]), std::fabs(u[2])});
   if (!(most > 0) || !std::isfinite(most)) return most;
@@ -33,8 +28,8 @@ struct Nearness {
   double t = 0;     ///< along the side
   Point foot{};     ///< the point below
   double size = 0;  ///< magnitude of the numbers behind the distance
-  double tilt =
-      0;  ///< error of the distance from a sliver, whose normal is uncertain because its area is small
+  /// Error of the distance from a sliver, whose normal is uncertain because its area is small.
+  double tilt = 0;
 
   /// Of the distance, whose error is some last bits of these.
   [[nodiscard]] double bound() const { return distance + size * 0x1p-49; }
@@ -53,7 +48,7 @@ class FarFromFacet {
   FarFromFacet(const Point& a, const Point& b, const Point& c, double distance);
 
   [[nodiscard]] bool operator()(const Point& p) const {
-    const Vector w = minus(p, origin_);
+    const Vector w = p - origin_;
     const double size = std::fabs(w[0]) + std::fabs(w[1]) + std::fabs(w[2]);
     return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
       return dot(w, plane.normal) > plane.least + plane.error * size;

@@ -21,7 +21,7 @@ PartFacets::PartFacets(const State& state, std::span<const Index> part)
 std::optional<PlaneOf> PartFacets::plane_of(const Triangle& t) const {
   for (const Index v : t)
     if (v >= state_.vertices.size() || !is_finite(at(v))) return std::nullopt;
-  const Vector u = minus(at(t[1]), at(t[0])), v = minus(at(t[2]), at(t[0])), w = minus(at(t[2]), at(t[1]));
+  const Vector u = at(t[1]) - at(t[0]), v = at(t[2]) - at(t[0]), w = at(t[2]) - at(t[1]);
   const double longest = std::max({length(u), length(v), length(w)});
   if (!(longest > 0) || !std::isfinite(longest)) return std::nullopt;
   Vector n = cross(over(u, longest), over(v, longest));

@@ -118,10 +118,10 @@ class PassingSides {
   [[nodiscard]] bool lies_in_plane_of(Index f, Index g) const {
     const Triangle& t = state_.facets[g];
     const Point& origin = at(t[0]);
-    const Vector normal = cross(minus(at(t[1]), origin), minus(at(t[2]), origin));
+    const Vector normal = cross(at(t[1]) - origin, at(t[2]) - origin);
     const double most = gap_ * length(normal);
     return std::all_of(state_.facets[f].begin(), state_.facets[f].end(),
-                       [&](Index v) { return std::fabs(dot(minus(at(v), origin), normal)) <= most; });
+                       [&](Index v) { return std::fabs(dot(at(v) - origin, normal)) <= most; });
   }
 
   const State& state_;

@@ -9,7 +9,7 @@
 #include "repair/cut_facet.h"
 #include "repair/patches.h"
 #include "repair/round_chain.h"
-#include "surface/aabb_tree.h"
+#include "surface/box_pairs.h"
 #include "surface/complex.h"
 
 namespace holdfast::repairing {
@@ -25,10 +25,43 @@ bool is_flat(const PartFacets& facets, const std::vector<Index>& patch, double r
   return std::all_of(patch.begin(), patch.end(), [&](Index f) {
     const Triangle& t = facets.corners(f);
     return std::all_of(t.begin(), t.end(), [&](Index v) {
-      return std::fabs(dot(minus(facets.at(v), origin), facets.plane(widest)->normal)) <= kFlat * rounding;
+      return std::fabs(dot(facets.at(v) - origin, facets.plane(widest)->normal)) <= kFlat * rounding;
     });
   });
 }
+
+/// A plane patch in two of the three coordinates, with the pieces of all sides of its facets.
+struct FlatPatch {
+  std::size_t axis;  ///< the coordinate that is left out
+  Plane plane;
+  std::vector<Index> vertices;  ///< by point of the plane
+  /// For each facet of the patch, the steps round it, counterclockwise.
+  std::vector<std::vector<RoundChain::Step>> chains;
+
+  FlatPatch(const PartFacets& facets, const LedSides& sides, const std::vector<Index>& patch)
+      : axis(facets.plane(facets.widest(patch))->axis) {
+    std::unordered_map<Index, Index> number;
+    const auto number_of = [&](Index v) {
+      const auto [found, is_new] = number.try_emplace(v, static_cast<Index>(vertices.size()));
+      if (is_new) {
+        vertices.push_back(v);
+        plane.points.push_back(facets.flat(v, axis));
+      }
+      return found->second;
+    };
+    std::vector<Side> pieces;
+    for (const Index f : patch) {
+      chains.push_back(sides.round(facets.corners(f)));
+      for (RoundChain::Step& step : chains.back()) {
+        if (facets.area(facets.corners(f), axis) < 0) std::swap(step[0], step[1]);
+        step = {number_of(step[0]), number_of(step[1])};
+        pieces.push_back(ascending(step));
+      }
+    }
+    sort_unique(pieces);
+    plane.segments.assign(pieces.begin(), pieces.end());
+  }
+};
 
 /// Cuts one patch after the other.
 class PatchCutter {
@@ -38,6 +71,7 @@ class PatchCutter {
 
   /// Cuts a plane patch as a whole. False if this fails.
   bool cut_flat(const std::vector<Index>& patch);
+
   /// Cuts a patch that is not plane: each facet is cut in its own plane into cells. Cells of several facets
   /// with the same border share the triangles of one of them.
   void cut_curved(const std::vector<Index>& patch);
@@ -50,6 +84,7 @@ class PatchCutter {
   [[nodiscard]] std::map<Index, std::vector<Index>> vertices_inside(const std::vector<Index>& patch) const;
   [[nodiscard]] std::vector<Side> sides_of_others(Index f, const std::vector<Index>& patch,
                                                   const std::vector<Box>& boxes) const;
+  void take(const Triangle& corners, const std::vector<Index>& facets);
   void take(const std::vector<Cell>& cells);
 
   const PartFacets& facets_;
@@ -61,40 +96,17 @@ class PatchCutter {
 };
 
 bool PatchCutter::cut_flat(const std::vector<Index>& patch) {
-  const std::size_t axis = facets_.plane(facets_.widest(patch))->axis;
-  Plane plane;
-  std::unordered_map<Index, Index> number;
-  std::vector<Index> vertices;
-  const auto number_of = [&](Index v) {
-    const auto [found, is_new] = number.try_emplace(v, static_cast<Index>(vertices.size()));
-    if (is_new) {
-      vertices.push_back(v);
-      plane.points.push_back(facets_.flat(v, axis));
-    }
-    return found->second;
-  };
-  std::vector<Side> pieces;
-  std::vector<std::vector<RoundChain::Step>> chains;
-  for (const Index f : patch) {
-    chains.push_back(sides_.round(facets_.corners(f)));
-    for (RoundChain::Step& step : chains.back()) {
-      if (facets_.area(facets_.corners(f), axis) < 0) std::swap(step[0], step[1]);
-      step = {number_of(step[0]), number_of(step[1])};
-      pieces.push_back(ascending(step));
-    }
-  }
-  sort_unique(pieces);
-  plane.segments.assign(pieces.begin(), pieces.end());
+  const FlatPatch flat(facets_, sides_, patch);
   PlaneOptions options;
   options.delaunay = true;
-  const PlaneResult result = plane::triangulate(plane, options, [&](double) { step_(0.7); });
-  if (result.outcome != Outcome::done || result.mesh.points.size() != plane.points.size()) return false;
+  const PlaneResult result = plane::triangulate(flat.plane, options, [&](double) { step_(0.7); });
+  if (result.outcome != Outcome::done || result.mesh.points.size() != flat.plane.points.size()) return false;
 
   const RoundChain round(result.mesh.triangles);
   std::vector<std::vector<Index>> facets_at(result.mesh.triangles.size());
   for (std::size_t k = 0; k < patch.size(); ++k) {
     step_(0.7);
-    const std::vector<Index> inside = round.inside(chains[k]);
+    const std::vector<Index> inside = round.inside(flat.chains[k]);
     if (inside.empty()) return false;
     for (const Index t : inside) facets_at[t].push_back(patch[k]);
   }
@@ -102,12 +114,17 @@ bool PatchCutter::cut_flat(const std::vector<Index>& patch) {
     const std::vector<Index>& of = facets_at[t];
     if (of.empty()) continue;
     Triangle corners = result.mesh.triangles[t];
-    for (Index& v : corners) v = vertices[v];
-    if (facets_.area(facets_.corners(of[0]), axis) < 0) std::swap(corners[1], corners[2]);
-    for (const Index f : of) most_ = std::max(most_, facets_.distance(corners, f));
-    pasted_.push_back({corners, of});
+    for (Index& v : corners) v = flat.vertices[v];
+    if (facets_.area(facets_.corners(of[0]), flat.axis) < 0) std::swap(corners[1], corners[2]);
+    take(corners, of);
   }
   return true;
+}
+
+// A triangle that replaces parts of facets.
+void PatchCutter::take(const Triangle& corners, const std::vector<Index>& facets) {
+  for (const Index f : facets) most_ = std::max(most_, facets_.distance(corners, f));
+  pasted_.push_back({corners, facets});
 }
 
 void PatchCutter::cut_curved(const std::vector<Index>& patch) {
@@ -145,10 +162,7 @@ void PatchCutter::take(const std::vector<Cell>& cells) {
     std::vector<Index> of;
     for (const Cell* cell : *same) of.push_back(cell->facet);
     sort_unique(of);
-    for (const Triangle& corners : best.triangles) {
-      for (const Index f : of) most_ = std::max(most_, facets_.distance(corners, f));
-      pasted_.push_back({corners, of});
-    }
+    for (const Triangle& corners : best.triangles) take(corners, of);
   }
 }
 
@@ -158,28 +172,24 @@ std::map<Index, std::vector<Index>> PatchCutter::vertices_inside(const std::vect
   for (const Index f : patch)
     vertices.insert(vertices.end(), facets_.corners(f).begin(), facets_.corners(f).end());
   sort_unique(vertices);
-  std::vector<Box> boxes;
-  boxes.reserve(vertices.size() + patch.size());
-  for (const Index v : vertices) boxes.push_back(box_round(facets_.state(), std::array{v}, gap_));
-  for (const Index f : patch) boxes.push_back(box_round(facets_.state(), facets_.corners(f), 0));
+  std::vector<Box> round_vertices, round_facets;
+  for (const Index v : vertices) round_vertices.push_back(box_round(facets_.state(), std::array{v}, gap_));
+  for (const Index f : patch) round_facets.push_back(box_round(facets_.state(), facets_.corners(f), 0));
   std::map<std::pair<Index, Index>, std::pair<double, Index>> best;  // by vertex and part
-  const auto first = static_cast<Index>(vertices.size());
-  AabbTree(boxes).for_each_overlap(
-      [&](Index i, Index j) {
-        if (i > j) std::swap(i, j);
-        if (i >= first || j < first) return true;
-        const Index v = vertices[i], f = patch[j - first], part = facets_.part_of(f);
-        if (std::binary_search(facets_.parts_at(v).begin(), facets_.parts_at(v).end(), part)) return true;
-        if (sides_.is_on_side(v, part)) return true;
-        const auto& [a, b, c] = facets_.corners(f);
-        const std::pair near{
-            beside_facet(facets_.at(v), facets_.at(a), facets_.at(b), facets_.at(c)).distance, f};
-        if (!(near.first <= gap_)) return true;
-        const auto [there, is_new] = best.try_emplace({v, part}, near);
-        if (!is_new) there->second = std::min(there->second, near);
-        return true;
-      },
-      [](Index, Index) { return false; }, step_);
+  const auto compare = [&](Index i, Index j) {
+    const Index v = vertices[i], f = patch[j], part = facets_.part_of(f);
+    if (std::binary_search(facets_.parts_at(v).begin(), facets_.parts_at(v).end(), part)) return true;
+    if (sides_.is_on_side(v, part)) return true;
+    const auto& [a, b, c] = facets_.corners(f);
+    const std::pair near{beside_facet(facets_.at(v), facets_.at(a), facets_.at(b), facets_.at(c)).distance,
+                         f};
+    if (!(near.first <= gap_)) return true;
+    const auto [there, is_new] = best.try_emplace({v, part}, near);
+    if (!is_new) there->second = std::min(there->second, near);
+    return true;
+  };
+  for_each_overlap_between(std::move(round_vertices), round_facets, compare, step_);
+
   std::map<Index, std::vector<Index>> inside;
   for (const auto& [key, near] : best) inside[near.second].push_back(key.first);
   return inside;

@@ -44,7 +44,7 @@ inline constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
 inline constexpr std::array kWeldedLastBits{0x1p6,  0x1p8,  0x1p10, 0x1p12, 0x1p14, 0x1p16, 0x1p18,
                                             0x1p20, 0x1p22, 0x1p24, 0x1p26, 0x1p28, 0x1p30, 0x1p32};
 
-/// The same for vertices in trouble that are there twice: the least distance, and the largest as a share of
+/// The same for duplicated vertices in trouble: the least distance, and the largest as a share of
 /// the extent.
 inline constexpr double kTwinsLastBits = 0x1p5, kMostForTwins = 0x1p-40;
 

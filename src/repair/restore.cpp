@@ -121,7 +121,7 @@ class Restoring {
   /// The distance within which facets may be changed for a lost vertex.
   [[nodiscard]] double reach(const Lost& lost) const {
     constexpr double kWider = 2;
-    return kWider * length(minus(before_[lost.vertex], at(lost.vertex)));
+    return kWider * length(before_[lost.vertex] - at(lost.vertex));
   }
 
   /// For each lost vertex the facets within its reach, ascending. A tree of the few vertices is built sooner
@@ -204,14 +204,14 @@ class Restoring {
 
   /// Differences of nearby points are nearly exact, so the nearest corner comes first.
   [[nodiscard]] static Nearness beside_any(const Point& p, std::array<Point, 3> corners) {
-    const auto nearest = std::min_element(
-        corners.begin(), corners.end(),
-        [&](const Point& a, const Point& b) { return length(minus(p, a)) < length(minus(p, b)); });
+    const auto nearest =
+        std::min_element(corners.begin(), corners.end(),
+                         [&](const Point& a, const Point& b) { return length(p - a) < length(p - b); });
     std::rotate(corners.begin(), nearest, corners.end());
     return beside_facet(p, corners[0], corners[1], corners[2]);
   }
   [[nodiscard]] static Nearness beside_any(const Point& p, const std::array<Point, 2>& ends) {
-    const bool is_first = length(minus(p, ends[0])) <= length(minus(p, ends[1]));
+    const bool is_first = length(p - ends[0]) <= length(p - ends[1]);
     return beside_side(p, ends[is_first ? 0 : 1], ends[is_first ? 1 : 0]);
   }
 
@@ -250,18 +250,12 @@ class Restoring {
     if (w == no_index || std::any_of(state_.segments.begin(), state_.segments.end(),
                                      [&](const Segment& s) { return s[0] == w || s[1] == w; }))
       return;
-    Change star{v, {}, {}, {}, length(minus(before_[v], at(w))), 0};
+    Change star{v, {}, {}, {}, length(before_[v] - at(w)), 0};
     star.bent = star.distance * (1 + 0x1p-48);
-    std::vector<Triangle> facets;
+    const std::vector<Triangle> facets = take_star(w, near_facets, star);
     std::vector<Index> ends;
-    for (const Index f : near_facets) {
-      if (!has(f, w)) continue;
-      star.facets.push_back(f);
-      facets.push_back(state_.facets[f]);
-      std::replace(facets.back().begin(), facets.back().end(), w, v);
-      for (const Index x : facets.back())
-        if (x != v) ends.push_back(x);
-    }
+    for (const Triangle& t : facets)
+      std::copy_if(t.begin(), t.end(), std::back_inserter(ends), [v](Index x) { return x != v; });
     sort_unique(ends);
     const auto place = [&](Index x) { return x == v ? before_[v] : at(x); };
     const auto add = [&](const Nearness& near, auto&& put) {
@@ -289,6 +283,18 @@ class Restoring {
           });
   }
 
+  /// Lists the facets at w in the change, and returns them with the vertex of the change instead of w.
+  std::vector<Triangle> take_star(Index w, std::span<const Index> near_facets, Change& star) const {
+    std::vector<Triangle> facets;
+    for (const Index f : near_facets) {
+      if (!has(f, w)) continue;
+      star.facets.push_back(f);
+      facets.push_back(state_.facets[f]);
+      std::replace(facets.back().begin(), facets.back().end(), w, star.vertex);
+    }
+    return facets;
+  }
+
   /// The corner of these facets at a place.
   [[nodiscard]] Index standing_at(const Point& place, std::span<const Index> facets) const {
     for (const Index f : facets)
@@ -297,7 +303,7 @@ class Restoring {
     return no_index;
   }
 
-  // --- Changes made -----------------------------------------------------------------------------------
+  // --- changes made
 
   static constexpr Index kNone = no_index;
 
@@ -312,13 +318,16 @@ class Restoring {
     Changed now;
     now.state.input_vertices = state_.input_vertices;
     now.state.vertices = state_.vertices;
+    for (const Change& change : changes) now.state.vertices[change.vertex] = before_[change.vertex];
+    add_facets(changes, now);
+    add_segments(changes, now);
+    return now;
+  }
+
+  void add_facets(const std::vector<Change>& changes, Changed& now) const {
     std::vector<Index> change_of(state_.facets.size(), kNone);
-    std::map<Side, Index> at_side;
-    for (Index c = 0; c < changes.size(); ++c) {
-      now.state.vertices[changes[c].vertex] = before_[changes[c].vertex];
+    for (Index c = 0; c < changes.size(); ++c)
       for (const Index f : changes[c].facets) change_of[f] = c;
-      if (changes[c].side) at_side.emplace(*changes[c].side, c);
-    }
     const auto add = [&](const Triangle& t, Index f, Index change, double bent) {
       now.state.facets.push_back(t);
       now.state.facet_parents.add(state_.facet_parents.of(f));
@@ -334,23 +343,28 @@ class Restoring {
         for (const Change::Part& part : changes[c].parts)
           if (part.from == f) add(part.corners, f, c, bent_[f] + changes[c].bent);
     }
+  }
+
+  void add_segments(const std::vector<Change>& changes, Changed& now) const {
+    std::map<Side, Index> at_side;
+    for (Index c = 0; c < changes.size(); ++c)
+      if (changes[c].side) at_side.emplace(*changes[c].side, c);
     for (Index s = 0; s < state_.segments.size(); ++s) {
       const auto [a, b] = state_.segments[s];
       const auto found = at_side.find(ascending(Side{a, b}));
       const Index c = found == at_side.end() ? kNone : found->second;
-      const auto add_segment = [&](const Segment& segment) {
+      const auto add = [&](const Segment& segment) {
         now.state.segments.push_back(segment);
         now.state.segment_parents.add(state_.segment_parents.of(s));
         now.segment_change.push_back(c);
       };
       if (c == kNone) {
-        add_segment({a, b});
+        add({a, b});
       } else {
-        add_segment({a, changes[c].vertex});
-        add_segment({changes[c].vertex, b});
+        add({a, changes[c].vertex});
+        add({changes[c].vertex, b});
       }
     }
-    return now;
   }
 
   /// Leaves out changes that do not fit until the rest fits. Of two changes that do not fit together, the
@@ -366,7 +380,7 @@ class Restoring {
       for (const Index c : refused) lost_with(changes[c].vertex).tried.insert(key_of(changes[c]));
       std::vector<Change> kept;
       for (Index c = 0; c < changes.size(); ++c)
-        if (refused.count(c) == 0 && (refused.empty() ? postponed.count(c) == 0 : true))
+        if (refused.count(c) == 0 && (!refused.empty() || postponed.count(c) == 0))
           kept.push_back(std::move(changes[c]));
       changes = std::move(kept);
     }

@@ -29,57 +29,95 @@ bool is_rounded_once(const State& state, const RepairReport& report) {
   });
 }
 
-}  // namespace
+/// The rounding of an exact arrangement, which is close to the given surface in the end.
+class ArrangedRounding {
+ public:
+  ArrangedRounding(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
+                   const Step& step, const Threads& threads, Trials trials)
+      : options_(options),
+        report_(report),
+        told_(report),
+        exact_(exact),
+        step_(step),
+        threads_(threads),
+        trials_(trials),
+        of_given_(std::exchange(state.facet_parents, identity(state.facets.size()))),
+        given_(std::move(state)) {}
 
-/// Sheets with common sides may leave thin facets between them, attached to the surface by one side. If so,
-/// these are tried one after the other.
-Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
-                       const Step& step, const Threads& threads, Trials trials) {
-  // Facets are compared with the facets before welding, which are parts of the input's.
-  const Parents of_given = std::exchange(state.facet_parents, identity(state.facets.size()));
-  const State given = state;
-  RoundedPlanes planes;
-  const auto begun = [&](const RepairReport& told, SidesOf sides) {
-    Ladder rounding(given, options, told, {exact, of_given}, planes, step, threads);
-    if (trials == Trials::near_trouble) rounding.leave_out_joining_all();
-    rounding.compare_with(given);
-    if (options.join > 0) rounding.flatten_all(options.join, sides);
-    rounding.begin();
-    return rounding;
-  };
-  const RepairReport told = report;
-  Ladder together = begun(told, SidesOf::all_sheets);
-  std::optional<Ladder> one_by_one;
-  if (options.join == 0 && !together.is_valid()) one_by_one.emplace(together);
-  Rounded rounded = together.run(SidesOf::all_sheets);
-  report = together.report();
-  if (rounded.is_valid && report.rung >= Rung::coarser) {
+  Rounded run() {
+    Rounded rounded = climb();
+    if (rounded.is_valid) follow_given(rounded);
+    rounded.state.facet_parents = composed(of_given_, rounded.state.facet_parents);
+    return rounded;
+  }
+
+ private:
+  /// A ladder whose first rungs have been tried.
+  Ladder begun(SidesOf sides) {
+    Ladder ladder(given_, options_, told_, {exact_, of_given_}, planes_, step_, threads_);
+    if (trials_ == Trials::near_trouble) ladder.leave_out_joining_all();
+    ladder.compare_with(given_);
+    if (options_.join > 0) ladder.flatten_all(options_.join, sides);
+    ladder.begin();
+    return ladder;
+  }
+
+  /// Sheets with common sides may leave thin facets between them, attached to the surface by one side. If so,
+  /// the sheets are tried one after the other.
+  Rounded climb() {
+    Ladder together = begun(SidesOf::all_sheets);
+    std::optional<Ladder> one_by_one;
+    if (options_.join == 0 && !together.is_valid()) one_by_one.emplace(together);
+    Rounded rounded = together.run(SidesOf::all_sheets);
+    report_ = together.report();
+    if (!rounded.is_valid || report_.rung < Rung::coarser) return rounded;
+
     constexpr std::size_t kFewSides = 16;  // with more sides, nearly as many are left
-    const std::size_t open = open_sides(rounded.state), before = open_sides(given);
+    const std::size_t open = open_sides(rounded.state), before = open_sides(given_);
     if (!together.starts_welded() && together.has_led() && open > before && open <= before + kFewSides) {
-      if (!one_by_one) one_by_one.emplace(begun(told, SidesOf::one_sheet));
+      if (!one_by_one) one_by_one.emplace(begun(SidesOf::one_sheet));
       one_by_one->try_no_more_than(together);
       Rounded other = one_by_one->run(SidesOf::one_sheet);
       if (other.is_valid && open_sides(other.state) < open) {
         rounded = std::move(other);
-        report = one_by_one->report();
+        report_ = one_by_one->report();
       }
     }
     if (open > before)
       rounded.displacement =
-          sum_above(rounded.displacement, drop_fins(rounded.state, given, rounded.displacement));
+          sum_above(rounded.displacement, drop_fins(rounded.state, given_, rounded.displacement));
+    return rounded;
   }
-  if (rounded.is_valid) {
+
+  /// Gives vertices their places back, keeps strips, and bounds the distance from the given surface.
+  void follow_given(Rounded& rounded) {
     double& most = rounded.displacement;
-    const std::span places = std::span(given.vertices).first(given.input_vertices);
-    most = sum_above(most, restore(rounded.state, places, step, threads));
-    if (options.join > 0 || !is_rounded_once(rounded.state, report)) {
-      most = keep_strips(rounded.state, given, most, step, threads);
-      most = covered_within(rounded.state, given, most, step).value_or(most);
+    const std::span places = std::span(given_.vertices).first(given_.input_vertices);
+    most = sum_above(most, restore(rounded.state, places, step_, threads_));
+    if (options_.join > 0 || !is_rounded_once(rounded.state, report_)) {
+      most = keep_strips(rounded.state, given_, most, step_, threads_);
+      most = covered_within(rounded.state, given_, most, step_).value_or(most);
     }
   }
-  rounded.state.facet_parents = composed(of_given, rounded.state.facet_parents);
-  return rounded;
+
+  const RepairOptions& options_;
+  RepairReport& report_;
+  const RepairReport told_;  // before
+  ExactSurface& exact_;
+  const Step& step_;
+  const Threads& threads_;
+  const Trials trials_;
+  // Facets are compared with the facets before welding, which are parts of the input's.
+  const Parents of_given_;
+  const State given_;
+  RoundedPlanes planes_;
+};
+
+}  // namespace
+
+Rounded round_arranged(State state, const RepairOptions& options, RepairReport& report, ExactSurface& exact,
+                       const Step& step, const Threads& threads, Trials trials) {
+  return ArrangedRounding(std::move(state), options, report, exact, step, threads, trials).run();
 }
 
 }  // namespace holdfast::repairing

@@ -59,7 +59,7 @@ class Settling {
 
   [[nodiscard]] bool is_finite(Index v) const { return holdfast::is_finite(at(v)); }
 
-  // --- 1. Vertices ------------------------------------------------------------------------------------
+  // --- 1. Vertices
 
   double merge_vertices() {
     std::vector<Box> boxes;
@@ -75,7 +75,7 @@ class Settling {
                          [&](const AabbTree::Item& item) {
                            const Index w = vertices_[item.id];
                            if (w <= v || is_gone[item.id] != 0) return;
-                           const double distance = length(minus(at(v), at(w)));
+                           const double distance = length(at(v) - at(w));
                            const bool may_move = w >= state_.input_vertices || how_.moves_input;
                            if (!may_move || !(distance <= gap_)) return;
                            is_gone[item.id] = 1;
@@ -109,7 +109,7 @@ class Settling {
         state_.vertices[u] = at(found->second);
   }
 
-  // --- 2. Sides that pass each other ------------------------------------------------------------------
+  // --- 2. Sides that pass each other
 
   /// Adds vertices there, unless there already is one within the gap.
   void add_passings() {
@@ -135,7 +135,7 @@ class Settling {
             const auto found = points_.find(cell(p, {x, y, z}));
             if (found == points_.end()) continue;
             for (const Point& q : found->second)
-              if (length(minus(p, q)) <= gap_) return true;
+              if (length(p - q) <= gap_) return true;
           }
       return false;
     }

@@ -39,7 +39,7 @@ std::size_t SharedSides::same_as(Index v, std::span<const Index> before, std::si
   double least = gap_;
   for (std::size_t k = first; k < before.size(); ++k) {
     if (v < old_ && before[k] < old_) continue;
-    const double distance = length(minus(at(v), at(before[k])));
+    const double distance = length(at(v) - at(before[k]));
     if (!(distance <= least) || std::find(chain.begin(), chain.end(), before[k]) != chain.end()) continue;
     same = k;
     least = distance;
@@ -51,8 +51,8 @@ std::size_t SharedSides::same_as(Index v, std::span<const Index> before, std::si
 std::optional<SharedSides::Joined> SharedSides::joined(const Side& side, std::span<const Index> before,
                                                        std::span<const Index> chain) const {
   Joined joined;
-  const Vector along = minus(at(side[1]), at(side[0]));
-  const auto t = [&](Index v) { return dot(minus(at(v), at(side[0])), along); };
+  const Vector along = at(side[1]) - at(side[0]);
+  const auto t = [&](Index v) { return dot(at(v) - at(side[0]), along); };
   std::size_t next = 0;  // after the earlier ones
   for (const Index v : chain) {
     const std::size_t same = same_as(v, before, next, chain);
@@ -120,7 +120,7 @@ void SharedSides::unite(Index v, Index w, std::size_t first) {
   if (v > w) std::swap(v, w);
   if (v == w || w < first) return;
   into_.emplace(w, v);
-  most_ = std::max(most_, length(minus(at(v), at(w))) * (1 + 0x1p-48));
+  most_ = std::max(most_, length(at(v) - at(w)) * (1 + 0x1p-48));
 }
 
 bool SharedSides::finish() {

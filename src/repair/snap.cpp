@@ -7,7 +7,7 @@
 
 #include "numbers/sorted.h"
 #include "repair/near.h"
-#include "surface/aabb_tree.h"
+#include "surface/box_pairs.h"
 #include "surface/elements.h"
 #include "surface/places.h"
 
@@ -33,7 +33,7 @@ class Snapping {
       std::map<Index, Point> moves = moves_of(p);
       withdraw_invalid(p, moves);
       for (const auto& [v, to] : moves) {
-        most_ = std::max(most_, length(minus(at(v), to)) * (1 + 0x1p-48));
+        most_ = std::max(most_, length(at(v) - to) * (1 + 0x1p-48));
         state_.vertices[v] = to;
       }
     }
@@ -65,22 +65,19 @@ class Snapping {
     const std::vector<Index> own = vertices_of(part);
     std::vector<Index> before;
     for (Index p = 0; p < part; ++p) before.insert(before.end(), facets_[p].begin(), facets_[p].end());
-    std::vector<Box> boxes;
-    for (const Index v : own) boxes.push_back(box_round(state_, std::array{v}, tolerance_));
-    for (const Index f : before) boxes.push_back(box_round(state_, state_.facets[f], 0));
+    std::vector<Box> round_own, round_before;
+    for (const Index v : own) round_own.push_back(box_round(state_, std::array{v}, tolerance_));
+    for (const Index f : before) round_before.push_back(box_round(state_, state_.facets[f], 0));
     std::map<Index, Target> best;
-    const auto first = static_cast<Index>(own.size());
-    AabbTree(boxes).for_each_overlap(
-        [&](Index i, Index j) {
-          if (i > j) std::swap(i, j);
-          if (i >= first || j < first) return true;
-          const std::optional<Target> target = target_on(at(own[i]), state_.facets[before[j - first]]);
-          if (!target) return true;
-          const auto [there, is_new] = best.try_emplace(own[i], *target);
-          if (!is_new && *target < there->second) there->second = *target;
-          return true;
-        },
-        [](Index, Index) { return false; }, step_);
+    const auto compare = [&](Index i, Index j) {
+      const std::optional<Target> target = target_on(at(own[i]), state_.facets[before[j]]);
+      if (!target) return true;
+      const auto [there, is_new] = best.try_emplace(own[i], *target);
+      if (!is_new && *target < there->second) there->second = *target;
+      return true;
+    };
+    for_each_overlap_between(std::move(round_own), round_before, compare, step_);
+
     std::map<Index, Point> moves;
     for (const auto& [v, target] : best)
       if (target.to != at(v)) moves.emplace(v, target.to);
@@ -93,7 +90,7 @@ class Snapping {
       const Target target{kind, distance, to};
       if (distance <= tolerance_ && (!best || target < *best)) best = target;
     };
-    for (const Index v : t) take(0, length(minus(p, at(v))), at(v));
+    for (const Index v : t) take(0, length(p - at(v)), at(v));
     if (to_ == SnapTo::vertices) return best;
     for (std::size_t i = 0; i < 3; ++i) {
       const Nearness near = beside_side(p, at(t[i]), at(t[(i + 1) % 3]));

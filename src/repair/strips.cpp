@@ -145,7 +145,7 @@ class Strips {
     join_sides(near.facets, [&](Index v) { return near.vertices.contains(v); });
     for (const Index c : corners)
       for (const auto& [v, unused] : near.vertices)
-        if (used_[v] != 0 && length(minus(at(v), at(c))) <= before_) groups_.join(v, c);
+        if (used_[v] != 0 && length(at(v) - at(c)) <= before_) groups_.join(v, c);
     while (!are_joined(corners)) {
       const std::optional<Segment> link = shortest_link(corners, near);
       if (!link || !add_strip(g, *link, near)) return;
@@ -163,7 +163,7 @@ class Strips {
       if (groups_.root(v) != from) continue;
       for (const auto& [w, distance] : near.vertices) {
         if (groups_.root(w) == from) continue;
-        const double l = length(minus(at(v), at(w)));
+        const double l = length(at(v) - at(w));
         if (!(l < least)) continue;
         least = l;
         link = Segment{v, w};

@@ -43,7 +43,7 @@ std::optional<double> distance_of_twins(const State& state, const Trouble& troub
   const auto visit = [&](Index i, Index j) {
     const Point &p = state.vertices[vertices[i]], &q = state.vertices[vertices[j]];
     if (p == q) return true;
-    const double distance = length(minus(p, q));
+    const double distance = length(p - q);
     least[i] = std::min(least[i], distance);
     least[j] = std::min(least[j], distance);
     return true;

@@ -14,7 +14,7 @@ namespace holdfast::repairing {
 double weld(State& state, double tolerance, const Step& step);
 
 /// The distance within which more than half of the input vertices in trouble have another of them at a
-/// different place. This is so if a surface is there twice up to rounding, or if its triangles were written
+/// different place. This is so if a surface is duplicated up to rounding, or if its triangles were written
 /// one by one. No value if the distance is more than `widest`.
 [[nodiscard]] std::optional<double> distance_of_twins(const State& state, const Trouble& trouble,
                                                       double widest, const Step& step);

@@ -1,4 +1,4 @@
-// The size that edges should have: from the surface, and from what the user asks for (paper §8;
+// The size that edges should have: from the surface, and from what the user asks for (paper §9;
 // docs/sizes.md).
 //
 // A vertex of the surface has the mean length of the edges of its facets (of very unlike ones the root of the

@@ -18,7 +18,7 @@ namespace {
 using Local = std::uint8_t;
 using LocalFace = std::array<Local, 3>;
 
-constexpr std::size_t kMostVertices = 31;
+constexpr std::size_t kMostVertices = 31;  // a set of them is a mask of 32 bits
 
 // Numbers the sets of four: a < b < c < d has the binomial sum (a 1) + (b 2) + (c 3) + (d 4). Without d, it
 // numbers the sets of three.
@@ -423,8 +423,8 @@ class Search {
 std::optional<Search> search_of(const TetMesh& mesh, std::span<const std::array<Vertex, 3>> faces,
                                 const PolyhedronOptions& options) {
   const std::size_t most = std::min(options.most_vertices, kMostVertices);
-  if (faces.empty() || faces.size() > 2 * most)
-    return std::nullopt;  // Euler: a sphere on n vertices has 2 n - 4 faces
+  // Euler: a sphere of triangles on n vertices has 2 n - 4 of them.
+  if (faces.empty() || faces.size() > 2 * most) return std::nullopt;
   std::vector<Vertex> vertices = corners_of_all(faces);
   if (vertices.size() > most) return std::nullopt;
   return std::optional<Search>(std::in_place, mesh, faces, std::move(vertices), options);

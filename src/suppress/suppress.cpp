@@ -4,10 +4,10 @@
 #include <random>
 
 #include "mesh/traverse.h"
-#include "suppress/collapse.h"
 #include "suppress/degree.h"
 #include "suppress/needed.h"
 #include "suppress/refill.h"
+#include "suppress/remove_or_recentre.h"
 #include "suppress/shake.h"
 #include "suppress/tuning.h"
 

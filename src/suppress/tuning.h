@@ -12,7 +12,7 @@ namespace holdfast::tuning {
 inline constexpr int kShrinkRounds = 30;
 inline constexpr int kShrinkIdle = 3;  ///< recentring may open a way only later
 inline constexpr int kInsistRounds = 20, kInsistIdle = 8;
-inline constexpr int kRoundingRounds = 6;
+inline constexpr int kRoundingRounds = 6;  ///< over points without doubles: each shakes what it cannot round
 // One point of so many gone is worth another go; where some have no doubles, one gone or rounded of more.
 inline constexpr std::size_t kWorthwhile = 10, kWorthwhileWithoutDoubles = 100;
 
@@ -36,15 +36,14 @@ inline constexpr int kRandomTries = 4;
 
 // Random flips round a point.
 inline constexpr int kShakenEdgesOfPoint = 40;  ///< a shake
-inline constexpr std::size_t kFewShakes = 16, kTetsAShake = 100,
-                             kMostPointShakes = 200;  ///< of a mesh: in
-                                                      ///< proportion to the rest of the work, within limits
-inline constexpr std::size_t kShakenBudget = 800;     ///< as kQuickBudget, after a shake
-inline constexpr std::size_t kMostWander = 4;         ///< steps from the ball to the edge, fewer than this
-inline constexpr int kShakeDepth = 1;                 ///< levels of flips for an edge
-inline constexpr std::size_t kShakeBudget = 200;      ///< for an edge
-inline constexpr std::size_t kMostShakenBall =
-    500;  ///< tetrahedra of the ball of a corner: gathering takes time
+/// Shakes of a mesh: in proportion to the rest of the work, within limits.
+inline constexpr std::size_t kFewShakes = 16, kTetsAShake = 100, kMostPointShakes = 200;
+inline constexpr std::size_t kShakenBudget = 800;  ///< as kQuickBudget, after a shake
+inline constexpr std::size_t kMostWander = 4;      ///< steps from the ball to the edge, fewer than this
+inline constexpr int kShakeDepth = 1;              ///< levels of flips for an edge
+inline constexpr std::size_t kShakeBudget = 200;   ///< for an edge
+/// Tetrahedra of the ball of a corner: gathering takes time.
+inline constexpr std::size_t kMostShakenBall = 500;
 
 // The proof that a point has to stay, for components that may be searched completely.
 inline constexpr std::size_t kMostTetsOfProof = 60;

@@ -23,7 +23,7 @@ constexpr std::array<unsigned, 8> kCount = {0, 1, 1, 2, 1, 2, 2, 3};
 // from corner i to the next one.
 constexpr std::array<unsigned, 8> kBegin = {0, 0, 1, 0, 2, 2, 1, 0};
 
-// --- Certificates -----------------------------------------------------------------------------------
+// --- Certificates
 
 // Corners of a simplex as a mask, narrowed down to those on which the common part can depend.
 struct Narrowed {
@@ -204,7 +204,7 @@ struct Certificates {
   }
 };
 
-// --- All pairs of faces -----------------------------------------------------------------------------
+// --- All pairs of faces
 
 // Sides of the plane of `t`, if it is a facet, on which the corners of the other simplex lie.
 Sides sides_of_corners(const Simplex& t, const Simplex& other) {
@@ -335,7 +335,7 @@ class FacePairs {
                                    kUnknown, kUnknown, kUnknown, kUnknown};
 };
 
-// --- Places -----------------------------------------------------------------------------------------
+// --- Places
 
 Point point_of(const double* p) { return {p[0], p[1], p[2]}; }
 

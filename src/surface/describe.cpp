@@ -22,7 +22,7 @@ unsigned count_of(const Corners& corners) {
   return corners[1] == no_index ? 1 : corners[2] == no_index ? 2 : 3;
 }
 
-// --- Words ------------------------------------------------------------------------------------------
+// --- Words
 
 std::string text(const Point& p) { return place(p); }
 
@@ -47,7 +47,7 @@ std::string places(const std::vector<Point>& where) {
   return " along " + text(where[0]) + " - " + text(where[1]);
 }
 
-// --- Places -----------------------------------------------------------------------------------------
+// --- Places
 
 Simplex simplex_of(const Complex& complex, const Corners& corners) {
   Simplex simplex;
@@ -75,7 +75,7 @@ std::vector<Point> place_of(const Complex& complex, const Finding& finding) {
   return corners;
 }
 
-// --- Entities ---------------------------------------------------------------------------------------
+// --- Entities
 
 std::vector<Index> vertices_of(const Finding& finding) {
   std::vector<Index> vertices;

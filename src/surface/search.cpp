@@ -20,8 +20,8 @@ namespace holdfast {
 namespace {
 
 constexpr std::size_t kWorthThreads = 5000;  // elements
-constexpr std::size_t kTopsAThread =
-    64;  // parts of the tree: many, because some take much longer than others
+// Parts of the tree: many, because some take much longer than others.
+constexpr std::size_t kTopsAThread = 64;
 
 Box box_of(const Complex& complex, const Element& element) {
   const Point& p = complex.vertices[element.vertex[0]];

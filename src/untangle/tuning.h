@@ -7,8 +7,8 @@
 namespace holdfast::tuning {
 
 // The order of the steps. Shares are of all tetrahedra: so many are not positive.
-inline constexpr std::size_t kMostUntangleRounds =
-    10;                                       ///< of swaps and moves; each has to lessen the deficit
+/// Rounds of swaps and moves; each has to lessen the deficit.
+inline constexpr std::size_t kMostUntangleRounds = 10;
 inline constexpr double kManyTangled = 0.02;  ///< from here on smoothing near by is time lost
 inline constexpr double kMostTangled = 0.1;   ///< from here on moving vertices one by one is, too
 /// Rings of tetrahedra round those that are not positive, in which vertices are smoothed: first few, since
@@ -31,10 +31,10 @@ inline constexpr double kOverRelaxation = 1.6;  ///< times the way to the mean
 // Descent of the foldover energy. Each value of epsilon changes the goal, hence few iterations for each.
 inline constexpr int kMostEpsilons = 100, kMostIdleEpsilons = 20;  ///< values, and those without a gain
 inline constexpr int kIterationsAnEpsilon = 10;
-inline constexpr double kLeastDescentOfEpsilon = 1e-4;  ///< share of the energy: an iteration that gains less
-                                                        ///< is the last of its epsilon
-inline constexpr double kFirstEpsilon = 1;              ///< determinants of tetrahedra are of the order of 1
-inline constexpr double kLeastEpsilon = 1e-9;           ///< below, chi is the determinant up to rounding
+/// Share of the energy: an iteration that gains less is the last of its epsilon.
+inline constexpr double kLeastDescentOfEpsilon = 1e-4;
+inline constexpr double kFirstEpsilon = 1;     ///< determinants of tetrahedra are of the order of 1
+inline constexpr double kLeastEpsilon = 1e-9;  ///< below, chi is the determinant up to rounding
 inline constexpr double kMostOfChi = 0.9;  ///< part of the worst chi that a smaller epsilon leaves at most
 inline constexpr double kLambda = 0.05;    ///< weight of size: boundaries force sizes on a mesh
 

@@ -36,13 +36,13 @@ struct Classified {
     Standing standing = mark_present(mesh, table);
     const Options options;
     Monitor monitor(options);
-    enforce(mesh, table, surface.facets, standing, first_free, {.seed = 1}, monitor);
+    enforce(mesh, {table, surface.facets, standing}, first_free, {.seed = 1}, monitor);
     regions = find_regions(mesh, surface.facets);
   }
 
   [[nodiscard]] Kept choose(const Options& options, int scale = 0) const {
     const Wanted wanted{options.keep, options.holes, options.regions, options.drop_outside};
-    return choose_regions(mesh, regions, surface.view(), table, wanted, scale);
+    return choose_regions(mesh, regions, {surface.view(), table}, wanted, scale);
   }
   [[nodiscard]] Kept choose(Keep keep) const {
     Options options;

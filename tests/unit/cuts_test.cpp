@@ -11,10 +11,11 @@
 #include "mesh/editor.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
+#include "numbers/vector.h"
+#include "refine/circumcentre.h"
 #include "refine/field_points.h"
 #include "refine/front.h"
 #include "refine/section_points.h"
-#include "refine/vector.h"
 
 namespace holdfast {
 namespace {

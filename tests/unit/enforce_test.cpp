@@ -105,7 +105,7 @@ TEST(Enforce, StopsWhenToldToWithAValidMesh) {
   options.time_limit = 1e-9;
   Monitor monitor(options);
   EXPECT_THROW(
-      enforce(t.mesh, t.table, t.surface.facets, t.standing, t.first_free, {.flips = false}, monitor),
+      enforce(t.mesh, {t.table, t.surface.facets, t.standing}, t.first_free, {.flips = false}, monitor),
       Interrupted);
   EXPECT_EQ(find_fault(t.mesh), "");
   EXPECT_EQ(volume_of(t.mesh), t.volume);

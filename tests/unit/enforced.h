@@ -54,7 +54,7 @@ Task task(const Surface& surface, const std::vector<Point>& steiner = {}) {
 inline EnforceStats run(Task& t, const EnforceOptions& how) {
   const Options options;
   Monitor monitor(options);
-  return enforce(t.mesh, t.table, t.surface.facets, t.standing, t.first_free, how, monitor);
+  return enforce(t.mesh, {t.table, t.surface.facets, t.standing}, t.first_free, how, monitor);
 }
 
 // --- exact positions

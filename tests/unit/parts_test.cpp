@@ -17,12 +17,12 @@
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
 #include "mesh_fixtures.h"
+#include "numbers/vector.h"
 #include "optimise/energy.h"
 #include "optimise/improve_parts.h"
 #include "optimise/volume.h"
 #include "refine/cut_parts.h"
 #include "refine/point_cavity.h"
-#include "refine/vector.h"
 
 namespace holdfast {
 namespace {

@@ -58,7 +58,7 @@ Recovered recover(const std::vector<Point>& points, const std::vector<Triangle>&
   run.standing = mark_present(run.mesh, table);
   const Options options;
   Monitor monitor(options);
-  run.stats = FlipRecovery(run.mesh, table, facets, run.standing, 1).run([&](double part) {
+  run.stats = FlipRecovery(run.mesh, {table, facets, run.standing}, 1).run([&](double part) {
     monitor.poll(Stage::flips, part);
   });
   EXPECT_EQ(find_fault(run.mesh), "");

@@ -9,10 +9,10 @@
 
 #include "enforce/enforce.h"
 #include "hard_surfaces.h"
-#include "suppress/collapse.h"
 #include "suppress/degree.h"
 #include "suppress/needed.h"
 #include "suppress/refill.h"
+#include "suppress/remove_or_recentre.h"
 #include "suppress/shake.h"
 #include "unit/suppress_scenes.h"
 
@@ -227,7 +227,7 @@ Scene enforced(const std::vector<Point>& points, const std::vector<Triangle>& fa
   Standing standing = mark_present(s.mesh, table);
   const Options options;
   Monitor monitor(options);
-  enforce(s.mesh, table, facets, standing, s.first_free, {.seed = seed, .flips = false}, monitor);
+  enforce(s.mesh, {table, facets, standing}, s.first_free, {.seed = seed, .flips = false}, monitor);
   EXPECT_EQ(facet_faces(s.mesh).size(), facets.size());
   s.remember();
   return s;

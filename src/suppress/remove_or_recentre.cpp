@@ -1,4 +1,4 @@
-#include "suppress/collapse.h"
+#include "suppress/remove_or_recentre.h"
 
 #include "mesh/editor.h"
 #include "mesh/kernel.h"
