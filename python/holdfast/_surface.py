@@ -165,6 +165,8 @@ def _told_by_shape(surface: Any) -> Surface:
         return surface
     if hasattr(surface, "GetPolys") and hasattr(surface, "GetPoints"):
         return _of_vtk(surface)
+    if _is_grid(surface):
+        raise _not_a_surface(surface)
     if hasattr(surface, "points") and hasattr(surface, "cells") and not hasattr(surface, "faces"):
         return _of_meshio(surface)
     if hasattr(surface, "points") and hasattr(surface, "faces"):
@@ -173,10 +175,20 @@ def _told_by_shape(surface: Any) -> Surface:
         return Surface(surface.vertices, surface.faces)
     if isinstance(surface, (tuple, list)) and len(surface) == 2 and _is_table(surface[0]):
         return Surface(surface[0], surface[1])
-    raise TypeError(
+    raise _not_a_surface(surface)
+
+
+def _not_a_surface(given: Any) -> TypeError:
+    hint = "; its `extract_surface()`, or VTK's vtkDataSetSurfaceFilter, gives one" if _is_grid(given) else ""
+    return TypeError(
         f"a surface is expected: a path, an (n, 3) array with `triangles`, or an object like a PyVista or VTK "
-        f"PolyData, a meshio.Mesh or a trimesh.Trimesh; not {type(surface).__name__}"
+        f"PolyData, a meshio.Mesh or a trimesh.Trimesh; not {type(given).__name__}{hint}"
     )
+
+
+def _is_grid(given: Any) -> bool:
+    """Whether it is an unstructured grid of PyVista or VTK, whose cells are of any kind."""
+    return hasattr(given, "celltypes") or hasattr(given, "GetCellTypesArray")
 
 
 def _is_table(values: Any) -> bool:

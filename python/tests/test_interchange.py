@@ -124,6 +124,12 @@ def fake_pyvista():
     return SimpleNamespace(UnstructuredGrid=UnstructuredGrid, PolyData=PolyData)
 
 
+def test_a_grid_is_told_to_give_its_surface(cube):
+    grid = fake_pyvista().UnstructuredGrid(None, None, cube[0])
+    with pytest.raises(TypeError, match="UnstructuredGrid; its `extract_surface"):
+        holdfast.mesh(grid)
+
+
 def test_pyvista_grid_and_accessor(cube, monkeypatch):
     import sys
 
