@@ -231,7 +231,7 @@ class Division {
 
   /// Tries lines until one meets no vertex and no side.
   void join_along_line(Index facet, const AabbTree& tree) {
-    constexpr unsigned kSum = 1u << 16;
+    constexpr unsigned kSum = 1u << 30;  // many more places than strips that may divide a facet
     for (;;) {
       const unsigned a = 1 + static_cast<unsigned>(random_() % (kSum - 2));
       const unsigned b = 1 + static_cast<unsigned>(random_() % (kSum - 1 - a));
