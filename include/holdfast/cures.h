@@ -13,21 +13,22 @@ enum class CureKind {
   cut,         ///< no option: facets that cross, touch or overlap are cut
   fill_holes,  ///< RepairOptions::fill_holes
   unite,       ///< RepairOptions::unite
-  join,        ///< RepairOptions::weld and RepairOptions::join, with the same tolerance
+  join,        ///< RepairOptions::weld and, for faces, RepairOptions::join, with the same tolerance
 };
 /// "weld", "cut", "fill holes", "unite", "join"; stable.
 [[nodiscard]] HOLDFAST_API const char* name(CureKind kind);
 
 struct Cure {
   CureKind kind;
-  /// Number of vertices to join, of defects, of holes; of parts that pass through each other; of triangles
-  /// and edges that lie near another body.
+  /// Number of vertices to join, of defects, of holes; of parts that pass through each other; of triangles,
+  /// or pairs of edges, that nearly touch another body.
   std::size_t count = 0;
   double distance = 0;  ///< weld: the widest gap to close; join: the largest distance of what nearly touches
   /// weld, join: the smallest tolerance tried that closes all of these, to one significant digit.
   double tolerance = 0;
-  std::size_t sides = 0;  ///< fill_holes: of the longest border
-  std::size_t left = 0;   ///< fill_holes: borders that stay open because a filling would meet the surface
+  std::size_t sides = 0;   ///< fill_holes: of the longest border
+  std::size_t left = 0;    ///< fill_holes: borders that stay open because a filling would meet the surface
+  bool has_faces = false;  ///< join: triangles nearly touch, not edges alone
 };
 
 struct Cures {

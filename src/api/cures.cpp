@@ -190,35 +190,36 @@ class Proposal {
       cures_.cures.push_back({CureKind::unite, count, 0, 0, 0, 0});
   }
 
-  /// How far sheets within `most` of each other move to be joined, if that is much more than what a repair
-  /// moves anyway.
-  double distance_of_sheets(double most, double moved_anyway) {
-    constexpr double kMuchMore = 16;
-    const RepairResult joined = repaired(complex_, welded_, most);
-    const bool is_more = joined.max_displacement > kMuchMore * moved_anyway;
-    return joined.outcome == Outcome::done && is_more ? joined.max_displacement : 0;
-  }
-
-  /// Proposes a tolerance within which bodies touch. Without it, what they nearly share becomes slivers.
+  /// Proposes a tolerance within which bodies touch. Without it, what they nearly share becomes slivers. What
+  /// a repair without options moves anyway is no reason to join faces.
   void join(const RepairResult& plain) {
     constexpr double kNear = 0x1p-20;  // of the extent: more than the rounding of files with six digits
+    constexpr double kMuchMore = 16;
     constexpr int kAttempts = 3;
     const double most = kNear * repairing::extent(complex_.vertices);
-    const repairing::NearBodies near = repairing::near_bodies(repairing::state_of(complex_), most, step());
-    double distance = near.distance;
-    if (near.facets > 0) {
-      const double moved = std::max(plain.max_displacement, repairing::last_bit(complex_.vertices));
-      distance = std::max(distance, distance_of_sheets(most, moved));
-    }
-    if (!(distance > 0)) return;
-    double tolerance = one_digit_above(distance * (1 + 0x1p-19));
-    for (int i = 0; i < kAttempts; ++i, tolerance = one_digit_above(tolerance)) {
-      const RepairResult result = repaired(complex_, std::max(tolerance, welded_), tolerance);
+    const double moved = std::max(plain.max_displacement, repairing::last_bit(complex_.vertices));
+    const auto near_in = [&](const Complex& complex) {
+      repairing::NearBodies near = repairing::near_bodies(repairing::state_of(complex), most, step());
+      if (!(near.thickness > kMuchMore * moved)) near.facets = 0;
+      return near;
+    };
+    const repairing::NearBodies near = near_in(complex_);
+    if (near.facets + near.edges == 0) return;
+    const bool has_faces = near.facets > 0;
+    Cure cure{CureKind::join,
+              has_faces ? near.facets : near.edges,
+              has_faces ? near.thickness : near.edge_distance,
+              0,
+              0,
+              0,
+              has_faces};
+    cure.tolerance = one_digit_above(cure.distance * (1 + 0x1p-19));
+    for (int i = 0; i < kAttempts; ++i, cure.tolerance = one_digit_above(cure.tolerance)) {
+      const RepairResult result =
+          repaired(complex_, std::max(cure.tolerance, welded_), has_faces ? cure.tolerance : 0);
       if (result.outcome != Outcome::done) continue;
-      const Complex joined = result.surface.view();
-      if (repairing::near_bodies(repairing::state_of(joined), most, step()).any()) continue;
-      cures_.cures.push_back({CureKind::join, near.facets + near.edges, distance, tolerance, 0, 0});
-      return;
+      const repairing::NearBodies after = near_in(result.surface.view());
+      if ((has_faces ? after.facets : after.edges) == 0) return cures_.cures.push_back(cure);
     }
   }
 

@@ -20,7 +20,8 @@ std::string option_of(const Cure& cure) {
     case CureKind::unite:
       return "--union";
     case CureKind::join:
-      return fmt::format("--weld {0} --join {0}", cure.tolerance);
+      return cure.has_faces ? fmt::format("--weld {0} --join {0}", cure.tolerance)
+                            : fmt::format("--weld {}", cure.tolerance);
   }
   return "";
 }
@@ -41,7 +42,9 @@ std::string message_of(const Cure& cure) {
                          option_of(cure));
     case CureKind::join:
       return fmt::format("bodies pass each other within {:.3g} at {}: {}, if they touch", cure.distance,
-                         counted(cure.count, "triangle or edge", "triangles or edges"), option_of(cure));
+                         cure.has_faces ? counted(cure.count, "triangle")
+                                        : counted(cure.count, "pair of edges", "pairs of edges"),
+                         option_of(cure));
   }
   return "";
 }

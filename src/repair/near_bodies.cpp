@@ -1,11 +1,13 @@
 #include "repair/near_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 #include <vector>
 
 #include "repair/clusters.h"
+#include "repair/near.h"
 #include "repair/passings.h"
 #include "surface/aabb_tree.h"
 
@@ -49,6 +51,20 @@ Trouble near_others(const State& state, std::span<const Index> bodies, double wi
   return near;
 }
 
+/// The largest distance of a corner from the plane of the largest facet.
+double thickness_of(const State& state, const Cluster& cluster) {
+  const auto area = [&](Index f) { return length(normal_of(state, f)); };
+  const Index largest = *std::max_element(cluster.facets.begin(), cluster.facets.end(),
+                                          [&](Index f, Index g) { return area(f) < area(g); });
+  const Vector normal = normal_of(state, largest);
+  const Point& origin = state.vertices[state.facets[largest][0]];
+  double most = 0;
+  for (const Index f : cluster.facets)
+    for (const Index v : state.facets[f])
+      most = std::max(most, std::fabs(dot(state.vertices[v] - origin, normal)) / length(normal));
+  return most;
+}
+
 }  // namespace
 
 NearBodies near_bodies(const State& state, double widest, const Step& step) {
@@ -60,13 +76,15 @@ NearBodies near_bodies(const State& state, double widest, const Step& step) {
   for (const SidesPass& place : passings_of(state, others, Passings::bodies, bodies, widest, work, step)) {
     if (!(place.distance > 0)) continue;
     ++near.edges;
-    near.distance = place.distance;  // in ascending order
+    near.edge_distance = place.distance;  // in ascending order
   }
   for (const Cluster& cluster : find_clusters(state, widest, others.facets, step).all) {
     const Index body = bodies[cluster.facets[0]];
     const bool is_of_one =
         std::all_of(cluster.facets.begin(), cluster.facets.end(), [&](Index f) { return bodies[f] == body; });
-    if (!is_of_one) near.facets += cluster.facets.size();
+    if (is_of_one) continue;
+    near.facets += cluster.facets.size();
+    near.thickness = std::max(near.thickness, std::min(widest, thickness_of(state, cluster)));
   }
   return near;
 }

@@ -9,11 +9,10 @@
 namespace holdfast::repairing {
 
 struct NearBodies {
-  std::size_t facets = 0;  ///< that overlap facets of another body, nearly in one plane
-  std::size_t edges = 0;   ///< pairs of sides that pass each other, but do not meet
-  double distance = 0;     ///< the largest of such sides
-
-  [[nodiscard]] bool any() const { return facets > 0 || edges > 0; }
+  std::size_t facets = 0;    ///< that overlap facets of another body, nearly in one plane
+  double thickness = 0;      ///< the largest of such facets together, but at most what was asked for
+  std::size_t edges = 0;     ///< pairs of sides that pass each other, but do not meet
+  double edge_distance = 0;  ///< the largest of such sides
 };
 
 /// What lies at most `widest` away from another body.
