@@ -38,12 +38,15 @@ enum class Rung {
 
 struct RepairOptions : Limits {
   /// First, vertices within this distance of each other become one, and vertices within it of a side
-  /// or facet are put on that side or facet. Two sides with one facet each get a vertex where they pass each
-  /// other within this distance. No vertex moves further than this.
+  /// or facet are put on that side or facet. Two sides get a vertex where they pass each other within this
+  /// distance, if they have one facet each, or are of different bodies (facets connected by sides) whose
+  /// facets there do not lie in each other; up to 64 last bits of the largest coordinate also within a body.
+  /// No vertex moves further than this.
   double weld = 0;
   /// After that, facets that overlap at a distance of at most this get the same triangles where they overlap.
   /// Vertices stay. Where sides cross above each other, a new vertex is put on the larger facet. Meant for
-  /// a few last bits: between sheets that close, a mesh may have no doubles.
+  /// faces of bodies that touch up to rounding, between which a mesh has slivers or no doubles. With a
+  /// distance that is not small compared with the details, it may take long.
   double join = 0;
   /// Closes holes whose border has at most this many sides, by facets without parents. No value: holes stay.
   std::optional<std::size_t> fill_holes = {};

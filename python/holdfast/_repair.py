@@ -93,11 +93,11 @@ def repair(
         As `mesh` takes them: a path, a `Surface`, an object of another package, or (n, 3) points with (m, 3) triangles.
     weld
         First join points within this distance of each other, and put points within this distance of a side or triangle
-        on it. Sides with one triangle each get a point where they pass each other within this distance. A length in the
-        surface's unit, 0 or more; 0 joins nothing.
+        on it. Sides with one triangle each, and sides of two bodies that touch with their edges, get a point where they
+        pass each other within this distance. A length in the surface's unit, 0 or more; 0 joins nothing.
     join
-        Then give triangles that overlap within this distance, a few last bits, the same triangles where they overlap.
-        Points stay. A length in the surface's unit, 0 or more.
+        Then give triangles that overlap within this distance, as faces of bodies that touch, the same triangles where
+        they overlap. Points stay. A length in the surface's unit, 0 or more.
     fill_holes
         Close holes: True for all, or the largest number of sides of a border, 3 or more; False or 0: none.
     union

@@ -182,14 +182,16 @@ void add_repair(CLI::App& app, Command& chosen) {
       ->required();
   add_surface_output(*command, *arguments);
   command
-      ->add_option("--weld", arguments->weld,
-                   "First merge vertices that are this near to each other, and put vertices that are this "
-                   "near to a side or facet on it (default 0)")
+      ->add_option(
+          "--weld", arguments->weld,
+          "First merge vertices that are this near to each other, put vertices that are this near to a "
+          "side or facet on it, and give edges of two bodies that pass each other this near a "
+          "common vertex (default 0)")
       ->option_text("T");
   command
       ->add_option("--join", arguments->join,
-                   "Triangles that overlap within T of each other, a few last bits, become the same where "
-                   "they overlap (default 0)")
+                   "Triangles that overlap within T of each other, as faces of bodies that touch, become the "
+                   "same where they overlap (default 0)")
       ->option_text("T");
   add_repair_ways(*command, arguments->ways);
   add_account(*command, *arguments);

@@ -7,6 +7,7 @@
 
 #include "io/formats.h"
 #include "io/gltf_file.h"
+#include "io/named_files.h"
 #include "io/solids.h"
 #include "io/text_reader.h"
 #include "text/decimal.h"
@@ -289,17 +290,7 @@ class GltfReader {
 MeshData read_gltf(const Source& source) { return GltfReader(source).read(); }
 
 std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path) {
-  std::vector<std::filesystem::path> files{path};
-  std::error_code error;
-  // A pipe can only be read once.
-  if (!std::filesystem::is_regular_file(path, error)) return files;
-  try {
-    const FileBytes bytes(path);
-    for (auto& file : GltfFile({path, bytes.view()}).files_beside()) files.push_back(std::move(file));
-  } catch (const FileError&) {
-    // The reader reports it.
-  }
-  return files;
+  return with_named_files(path, [](const Source& source) { return GltfFile(source).files_beside(); });
 }
 
 }  // namespace holdfast::io

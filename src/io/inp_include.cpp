@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <optional>
-#include <system_error>
 
 #include "io/fields.h"
 #include "io/formats.h"
+#include "io/named_files.h"
 #include "io/text_reader.h"
 
 namespace holdfast::io {
@@ -115,18 +115,10 @@ void InpIncludes::add_text(const std::filesystem::path& path, std::string_view b
 }
 
 std::vector<std::filesystem::path> inp_files(const std::filesystem::path& path) {
-  std::vector<std::filesystem::path> files{path};
-  std::error_code error;
-  // A pipe can only be read once.
-  if (!std::filesystem::is_regular_file(path, error)) return files;
-  try {
-    const FileBytes bytes(path);
-    const InpIncludes whole({path, bytes.view()});
-    files.insert(files.end(), whole.files().begin(), whole.files().end());
-  } catch (const FileError&) {
-    // The reader reports it.
-  }
-  return files;
+  return with_named_files(path, [](const Source& source) {
+    const InpIncludes whole(source);
+    return std::vector(whole.files().begin(), whole.files().end());
+  });
 }
 
 }  // namespace holdfast::io

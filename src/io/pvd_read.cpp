@@ -8,6 +8,7 @@
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/named_files.h"
 #include "io/text_reader.h"
 #include "io/vtu_block.h"
 #include "io/xml_reader.h"
@@ -105,19 +106,13 @@ MeshData read_pvd(const Source& source) {
 }
 
 std::vector<fs::path> pvd_files(const fs::path& path) {
-  std::vector<fs::path> files{path};
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return files;
-  try {
-    const FileBytes bytes(path);
-    const Source source{path, bytes.view()};
+  return with_named_files(path, [](const Source& source) {
     XmlReader xml(source);
+    std::vector<fs::path> files;
     for (const NamedPart& part : first_step(source, xml).parts)
       for (fs::path& file : files_of_volume(part.path)) files.push_back(std::move(file));
-  } catch (const FileError&) {
-    // The reader reports it.
-  }
-  return files;
+    return files;
+  });
 }
 
 }  // namespace holdfast::io

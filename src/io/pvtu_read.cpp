@@ -7,6 +7,7 @@
 
 #include "io/file_bytes.h"
 #include "io/formats.h"
+#include "io/named_files.h"
 #include "io/turn.h"
 #include "io/vtu_join.h"
 
@@ -86,21 +87,15 @@ MeshData read_pvtu(const Source& source) {
 }
 
 std::vector<fs::path> pvtu_files(const fs::path& path) {
-  std::vector<fs::path> files{path};
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return files;
-  try {
-    const FileBytes bytes(path);
-    const Source source{path, bytes.view()};
+  return with_named_files(path, [](const Source& source) {
     XmlReader xml(source);
+    std::vector<fs::path> files;
     for (const NamedPiece& piece : named_pieces(source, xml)) {
       files.push_back(piece.path);
       files.push_back(surface_beside(without_gz(piece.path)));
     }
-  } catch (const FileError&) {
-    // The reader reports it.
-  }
-  return files;
+    return files;
+  });
 }
 
 }  // namespace holdfast::io

@@ -32,8 +32,8 @@ inline constexpr std::size_t kUsualShare = 4;  ///< one part of this many is for
 /// The most work for these: otherwise millions of thin elements on a smooth surface would use up all work in
 /// both searches.
 inline constexpr std::size_t kMostUsual = 1'000'000, kMostUsualAgain = 200'000;
-/// The most work, and the most on what is promising. Where nearly all of a million elements are flat and take
-/// ten times as long as others, all work that is proportional to the mesh would take an hour.
+/// The most work, and the most on what is promising. Where nearly all of millions of elements are flat, and
+/// exchanges take ten times as long as elsewhere, work in proportion to the mesh takes a quarter of an hour.
 inline constexpr std::size_t kMostWork = 1'000'000, kMostPromising = 2'000'000;
 inline constexpr std::size_t kPromisingTimes = 10;  ///< factor of the work on what would improve the worst
 inline constexpr std::size_t kIdle = 300;           ///< work without a gain after which nothing is promising
