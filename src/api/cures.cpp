@@ -195,6 +195,7 @@ class Proposal {
   void join(const RepairResult& plain) {
     constexpr double kNear = 0x1p-20;  // of the extent: more than the rounding of files with six digits
     constexpr double kMuchMore = 16;
+    constexpr double kLeastLastBits = 0x1p6;  // a tolerance needs some room for the rounding of distances
     constexpr int kAttempts = 3;
     const double most = kNear * repairing::extent(complex_.vertices);
     const double moved = std::max(plain.max_displacement, repairing::last_bit(complex_.vertices));
@@ -213,7 +214,8 @@ class Proposal {
               0,
               0,
               has_faces};
-    cure.tolerance = one_digit_above(cure.distance * (1 + 0x1p-19));
+    const double least = kLeastLastBits * repairing::last_bit(complex_.vertices);
+    cure.tolerance = one_digit_above(std::max(cure.distance * (1 + 0x1p-19), least));
     for (int i = 0; i < kAttempts; ++i, cure.tolerance = one_digit_above(cure.tolerance)) {
       const RepairResult result =
           repaired(complex_, std::max(cure.tolerance, welded_), has_faces ? cure.tolerance : 0);

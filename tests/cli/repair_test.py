@@ -483,13 +483,16 @@ class Proposals(Repaired):
             points = [(-1, 0, 0), (1, 0, 0), (-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1)]
             return points if along == "x" else [(y, x, height - z) for x, y, z in points]
         facets = [(0, 2, 3), (0, 3, 1), (0, 1, 4), (0, 4, 5), (2, 5, 4), (2, 4, 3), (0, 5, 2), (1, 3, 4)]
-        cures, _ = self.cure(roof("x", 0) + roof("y", -1e-9), facets + shifted(facets, 6))
-        join = cures["proposals"][-1]
-        self.assertEqual((join["kind"], join["count"], join["distance"]), ("join", 1, 1e-9))
-        self.repair("in.off", options=join["option"].split())
-        self.check("in.off")
-        touching = self.program_says_of("out.off")
-        self.assertEqual((touching["valid"], touching["summary"]["encloses"], touching["cures"]["proposals"]), (True, 2, []))
+        for depth in (1e-9, 2.0 ** -52):
+            cures, _ = self.cure(roof("x", 0) + roof("y", -depth), facets + shifted(facets, 6))
+            join = cures["proposals"][-1]
+            self.assertEqual((join["kind"], join["count"], join["distance"]), ("join", 1, depth))
+            self.assertNotIn("--join", join["option"])
+            self.repair("in.off", options=join["option"].split())
+            self.check("in.off")
+            touching = self.program_says_of("out.off")
+            self.assertEqual((touching["valid"], touching["summary"]["encloses"], touching["cures"]["proposals"]), (True, 2, []))
+            self.assertEqual(len(read_off((self.folder / "out.off").read_text())[0]), 13, "a common vertex")
 
     def test_a_hole(self):
         cures, after = self.cure(cube(), CUBE_FACETS[2:])
