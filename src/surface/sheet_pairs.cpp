@@ -54,14 +54,15 @@ void SheetPairs::list_pairs(std::size_t most) {
   for (const Part& part : parts_) boxes.push_back(part.box);
   Box all = boxes[0];
   for (const Box& box : boxes) all.extend(box);
-  const std::vector<OrientedBox> oriented = oriented_boxes(all);
+  const std::vector<Round> round = rounds(all);
   std::size_t visited = 0;
   AabbTree(boxes).for_each_overlap(
       [&](Index p, Index q) {
         const Part &a = parts_[p], &b = parts_[q];
         if (a.sheet == b.sheet || (a.is_known && b.is_known)) return true;
         ++visited;
-        if (!surely_apart(oriented[p], oriented[q])) pairs_.push_back({std::min(p, q), std::max(p, q)});
+        if (!surely_apart(round[p].triangle, round[q].triangle) && !surely_apart(round[p].box, round[q].box))
+          pairs_.push_back({std::min(p, q), std::max(p, q)});
         too_many_ = pairs_.size() > most || visited > kMostVisits * most;
         return !too_many_;
       },
@@ -69,11 +70,11 @@ void SheetPairs::list_pairs(std::size_t most) {
   std::sort(pairs_.begin(), pairs_.end());
 }
 
-/// A box round each part, in the frame of a box round all.
-std::vector<OrientedBox> SheetPairs::oriented_boxes(const Box& all) const {
+/// In the frame of a box round all.
+std::vector<SheetPairs::Round> SheetPairs::rounds(const Box& all) const {
   const UnitFrame frame(all);
-  std::vector<OrientedBox> boxes;
-  boxes.reserve(parts_.size());
+  std::vector<Round> rounds;
+  rounds.reserve(parts_.size());
   std::vector<std::array<Point, 3>> corners;
   for (const Part& part : parts_) {
     corners.clear();
@@ -83,9 +84,9 @@ std::vector<OrientedBox> SheetPairs::oriented_boxes(const Box& all) const {
       };
       corners.push_back({at(0), at(1), at(2)});
     }
-    boxes.push_back(oriented_box(corners));
+    rounds.push_back({oriented_box(corners), RoundTriangle(corners)});
   }
-  return boxes;
+  return rounds;
 }
 
 void SheetPairs::divide(std::span<const Index> sheet, std::span<const std::uint8_t> known) {

@@ -34,6 +34,7 @@
 #include "surface/aabb_tree.h"
 #include "surface/elements.h"
 #include "surface/oriented_box.h"
+#include "surface/round_triangle.h"
 
 namespace holdfast {
 
@@ -47,8 +48,8 @@ class SheetPairs {
   /// Whether more sheets are near each other than there are elements. Then
   /// nothing is prepared.
   [[nodiscard]] bool are_too_many() const { return too_many_; }
-  /// Pairs of parts of different sheets whose boxes overlap, oriented ones too, except for parts that are
-  /// wholly known.
+  /// Pairs of parts of different sheets that boxes and triangles round them do not separate, except for parts
+  /// that are wholly known.
   [[nodiscard]] const std::vector<std::array<Index, 2>>& all() const { return pairs_; }
 
   /// Visits pairs of facets of two parts, as indices of Elements::all, that may meet in more than a common
@@ -90,6 +91,11 @@ class SheetPairs {
     double rise, slope;
     Flatness flatness;
   };
+  /// Sets round a part.
+  struct Round {
+    OrientedBox box;
+    RoundTriangle triangle;
+  };
   struct Touching {
     std::vector<Index> elements;
     std::vector<Fan> fans;
@@ -99,7 +105,7 @@ class SheetPairs {
   void divide(std::span<const Index> sheet, std::span<const std::uint8_t> known);
   [[nodiscard]] bool is_round_origin(const Triangle& facet) const;
   void list_pairs(std::size_t most);
-  [[nodiscard]] std::vector<OrientedBox> oriented_boxes(const Box& all) const;
+  [[nodiscard]] std::vector<Round> rounds(const Box& all) const;
   void measure(Part& part) const;
   [[nodiscard]] static bool is_beyond(const Box& box, const Part& plane);
   [[nodiscard]] static Touching touching(const Part& part, const Part& plane, const Box& box);

@@ -13,6 +13,7 @@
 #include "surface/diagnose.h"
 #include "surface/hubs.h"
 #include "surface/oriented_box.h"
+#include "surface/round_triangle.h"
 #include "surface/search.h"
 #include "surface/sheet_pairs.h"
 
@@ -356,6 +357,60 @@ TEST(SheetPairs, StripsSideBySideAreNoPairs) {
   const SheetPairs sheets(complex, elements, sheet, {}, 1);
   EXPECT_FALSE(sheets.are_too_many());
   EXPECT_TRUE(sheets.all().empty());
+}
+
+// Nor are triangles that face each other across a slit: boxes round them, oriented ones too, overlap.
+TEST(SheetPairs, TrianglesThatFaceEachOtherAreNoPairs) {
+  constexpr Index kPairs = 20;
+  Surface s;
+  std::vector<Index> sheet;
+  for (Index k = 0; k < kPairs; ++k) {
+    const double slit = 1e-6, z = 10.0 * k;
+    const auto add = [&](const Point& a, const Point& b, const Point& c) {  // as two facets
+      const auto first = static_cast<Index>(s.vertices.size());
+      const Point middle{a[0] / 2 + b[0] / 2, a[1] / 2 + b[1] / 2, a[2] / 2 + b[2] / 2};
+      for (const Point& p : {a, middle, b, c}) s.vertices.push_back(rotated(p[0], p[1], p[2]));
+      for (const Triangle& t : {Triangle{0, 1, 3}, Triangle{1, 2, 3}}) {
+        s.facets.push_back({first + t[0], first + t[1], first + t[2]});
+        sheet.push_back(static_cast<Index>(s.vertices.size() / 4));
+      }
+    };
+    add({0, 0, z}, {1, 0, z}, {-2, -3, z + 1e-3 * (k % 2)});
+    add({0, slit, z}, {1, slit, z}, {3, 4, z - 1e-3 * (k % 3)});
+  }
+  const Complex complex = s.view();
+  const Elements elements = elements_of(complex);
+  const SheetPairs sheets(complex, elements, sheet, {}, 1);
+  EXPECT_TRUE(sheets.all().empty());
+}
+
+TEST(RoundTriangle, SeparatesNoFacetsThatMeet) {
+  std::size_t apart = 0, meet = 0;
+  for (unsigned seed = 0; seed < 4000; ++seed) {
+    Random random(seed);
+    const double size = std::ldexp(1.0, -static_cast<int>(below(random, 12)));
+    Surface s;
+    const bool is_flat = seed % 3 == 0, is_shared = seed % 5 == 0;
+    for (int i = 0; i < 6; ++i) {
+      const double x = uniform(random, -size, size) / 2, y = uniform(random, -0.5, 0.5);
+      const Point p = is_flat ? Point{x, y, 0} : rotated(x, y, uniform(random, -0.1, 0.1) * size);
+      s.vertices.push_back(is_shared && i == 3 ? s.vertices[0] : p);
+    }
+    s.facets = {{0, 1, 2}, {3, 4, 5}};
+    const auto round = [&](Index f) {
+      const Triangle& t = s.facets[f];
+      return RoundTriangle({{s.vertices[t[0]], s.vertices[t[1]], s.vertices[t[2]]}});
+    };
+    const Complex complex = s.view();
+    const bool is_apart = surely_apart(round(0), round(1));
+    const bool does_meet = !offending_pairs(complex, 1, [](double) {}).empty();
+    apart += is_apart ? 1 : 0;
+    meet += does_meet ? 1 : 0;
+    EXPECT_FALSE(is_apart && does_meet) << seed;
+    EXPECT_TRUE(is_apart || does_meet || is_shared) << seed << ": an axis is missing";
+  }
+  EXPECT_GT(apart, 500u);
+  EXPECT_GT(meet, 500u);
 }
 
 // Facets on planes through one line, with vertices on the line; planes may be nearly the same, facets nearly
