@@ -41,12 +41,12 @@ class Flattening {
     if (!any && !sides_.has_united()) return {};
     if (!sides_.finish()) {
       state_.vertices.resize(vertices_);
-      return {0, has_led_, {}};
+      return {0, has_shared_, {}};
     }
     for (const Index f : clusters.facets) in_sheets_.overlap[f] = 1;
     Delivered delivered = deliver_sheets(state_, sides_, parts_, in_sheets_);
     drop_unused(state_);
-    return {std::max({most_, sides_.most(), delivered.moved}), has_led_, std::move(delivered.changed)};
+    return {std::max({most_, sides_.most(), delivered.moved}), has_shared_, std::move(delivered.changed)};
   }
 
  private:
@@ -61,13 +61,10 @@ class Flattening {
 
   bool arrange_cluster(const Cluster& cluster) {
     const Flat before = flat_of(state_, cluster);
-    const bool waits = sides_of_ == SidesOf::one_sheet;
-    if (waits && std::any_of(before.sides.begin(), before.sides.end(),
-                             [&](const Side& s) { return !sides_.chain(s[0], s[1]).empty(); }))
-      return false;
+    if (is_led(before) && waits()) return false;
     if (has_one_above_another(before)) return false;
     std::optional<Sheet> sheet = rounded(cluster, before);
-    if (!sheet || (waits && leads_what_is_told(before, *sheet))) return false;
+    if (!sheet || (leads_what_is_told(before, *sheet) && waits())) return false;
 
     const std::size_t vertices = state_.vertices.size();
     const std::vector<Index> name = put_vertices(before, sheet->state);
@@ -84,6 +81,18 @@ class Flattening {
     for (const auto& [k, v] : corners)
       most_ = std::max(most_, distance(name[v], state_.facets[cluster.facets[k]]));
     return true;
+  }
+
+  /// Whether a sheet that shares a led side waits for the next call.
+  [[nodiscard]] bool waits() {
+    has_shared_ = true;
+    return sides_of_ == SidesOf::one_sheet;
+  }
+
+  /// Whether another sheet leads a side.
+  [[nodiscard]] bool is_led(const Flat& flat) const {
+    return std::any_of(flat.sides.begin(), flat.sides.end(),
+                       [&](const Side& s) { return !sides_.chain(s[0], s[1]).empty(); });
   }
 
   /// The cluster, arranged in its plane and rounded. Nothing if that moves it too far, tears a facet, or
@@ -148,10 +157,8 @@ class Flattening {
   void take(const Cluster& cluster, const Flat& before, const Sheet& sheet, std::span<const Index> name) {
     for (std::size_t f = 0; f < sheet.state.facets.size(); ++f) take(cluster, sheet.state, f, name);
     ++sheets_;
-    for (std::size_t k = 0; k < sheet.chains.size(); ++k) {
+    for (std::size_t k = 0; k < sheet.chains.size(); ++k)
       sides_.add(before.sides[k][0], before.sides[k][1], sheet.chains[k]);
-      has_led_ |= !sheet.chains[k].empty();
-    }
     for (const Index f : cluster.facets) in_sheets_.are_parted[f] = 1;
     most_ = std::max(most_, sheet.moved);
   }
@@ -284,7 +291,7 @@ class Flattening {
   std::set<Index> lifted_;                           // new vertices that have no third coordinate yet
   std::map<Index, std::pair<double, Index>> below_;  // of these, the area and the index of the largest facet
   double most_ = 0;
-  bool has_led_ = false;
+  bool has_shared_ = false;
 };
 
 }  // namespace
@@ -300,7 +307,7 @@ Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf
   std::vector<Index> some;
   for (int pass = 0; pass < kPasses; ++pass) {
     Flattened now = flatten(state, gap, round, sides, step, some);
-    all.has_led |= now.has_led;
+    all.has_shared |= now.has_shared;
     if (now.moved == 0) break;
     all.moved = sum_above(all.moved, now.moved);
     if (now.changed.empty()) break;

@@ -28,8 +28,8 @@ enum class SidesOf {
 /// The result is a graph over a triangulation of the plane, so it cannot cross itself. It may cross the
 /// surface round it.
 struct Flattened {
-  double moved = 0;      ///< the largest distance by which anything was moved or bent, rounded up
-  bool has_led = false;  ///< whether a side was led; if not, `sides` made no difference
+  double moved = 0;         ///< the largest distance by which anything was moved or bent, rounded up
+  bool has_shared = false;  ///< whether several sheets had a led side; if not, `sides` made no difference
   /// Facets, by their present numbers, that changed or overlapped others. Any overlap from now on involves
   /// one of them.
   std::vector<Index> changed;

@@ -246,7 +246,7 @@ RoundPlane Ladder::round_plane() {
 
 void Ladder::flatten_all(State& state, double gap, double& displacement) {
   const Flattened flat = repairing::flatten_all(state, gap, round_plane(), sides_, here());
-  has_led_ |= flat.has_led;
+  has_shared_ |= flat.has_shared;
   displacement = sum_above(displacement, flat.moved);
 }
 
@@ -258,7 +258,7 @@ void Ladder::flatten_again(const Plan& plan) {
   for (int pass = 0; pass < kPasses && !flat.trouble.none(); ++pass) {
     const double gap = plan.last_bits * last_bit(flat.state.vertices);
     const Flattened now = flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
-    has_led_ |= now.has_led;
+    has_shared_ |= now.has_shared;
     if (now.moved == 0) return;
     flat.displacement = sum_above(flat.displacement, now.moved);
     flat.trouble = trouble_of(flat.state, here(), threads_, kTooMuch * trouble_.size());

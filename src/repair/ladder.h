@@ -38,8 +38,8 @@ class Ladder {
   [[nodiscard]] bool is_valid() const { return rounded_.is_valid; }
   /// Whether this ladder started from a surface whose vertices were welded.
   [[nodiscard]] bool starts_welded() const { return welded_last_bits_ > 0; }
-  /// Whether flattened sheets have led a side. If not, every SidesOf gives the same result.
-  [[nodiscard]] bool has_led() const { return has_led_; }
+  /// Whether several flattened sheets had a led side. If not, every SidesOf gives the same result.
+  [[nodiscard]] bool has_shared() const { return has_shared_; }
 
   /// Compares results with the surface before the repair, which must outlive this ladder.
   void compare_with(const State& before) { before_ = &before; }
@@ -180,7 +180,7 @@ class Ladder {
   bool is_welded_ = false;  // kWeldedPlans were tried
   // Of kPlans: the next one, and how many to try.
   std::size_t next_plan_ = 0, plans_ = kPlans.size();
-  bool has_led_ = false;
+  bool has_shared_ = false;
   Work work_;  // of joining
   double most_displacement_ = std::numeric_limits<double>::infinity();
   std::size_t most_facets_ = SIZE_MAX;                  // upper limit of facets after joining

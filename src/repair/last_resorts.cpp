@@ -22,7 +22,7 @@ bool Ladder::join_all() {
     Ladder joining(given_, options, report_, exact_, planes_, step_, threads_);
     joining.proven_ = proven_;
     joining.flatten_all(options.join, sides_);
-    has_led_ |= joining.has_led_;
+    has_shared_ |= joining.has_shared_;
     if (joining.rounded_.displacement == 0 || are_same(joining.rounded_.state, last)) continue;
     last = joining.rounded_.state;
     joining.report_.rung = Rung::coarser;
@@ -113,7 +113,7 @@ bool Ladder::is_covered() const {
 
 bool Ladder::take_if_valid(const Ladder& other) {
   report_.rounds = other.report_.rounds;
-  has_led_ |= other.has_led_;
+  has_shared_ |= other.has_shared_;
   if (!other.rounded_.is_valid) return false;
   report_ = other.report_;
   welded_last_bits_ = other.welded_last_bits_;

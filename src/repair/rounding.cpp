@@ -73,20 +73,26 @@ class ArrangedRounding {
     if (!rounded.is_valid || report_.rung < Rung::coarser) return rounded;
 
     constexpr std::size_t kFewSides = 16;  // with more sides, nearly as many are left
-    const std::size_t open = open_sides(rounded.state), before = open_sides(given_);
-    if (!together.starts_welded() && together.has_led() && open > before && open <= before + kFewSides) {
+    const std::size_t before = open_sides(given_), open = drop_fins_to(before, rounded);
+    if (!together.starts_welded() && together.has_shared() && open > before && open <= before + kFewSides) {
       if (!one_by_one) one_by_one.emplace(begun(SidesOf::one_sheet));
       one_by_one->try_no_more_than(together);
       Rounded other = one_by_one->run(SidesOf::one_sheet);
-      if (other.is_valid && open_sides(other.state) < open) {
+      if (other.is_valid && drop_fins_to(before, other) < open) {
         rounded = std::move(other);
         report_ = one_by_one->report();
       }
     }
-    if (open > before)
-      rounded.displacement =
-          sum_above(rounded.displacement, drop_fins(rounded.state, given_, rounded.displacement));
     return rounded;
+  }
+
+  /// Removes fins if there are more open sides than before. Returns how many there are now.
+  [[nodiscard]] std::size_t drop_fins_to(std::size_t before, Rounded& rounded) const {
+    const std::size_t open = open_sides(rounded.state);
+    if (open <= before) return open;
+    const double moved = drop_fins(rounded.state, given_, rounded.displacement);
+    rounded.displacement = sum_above(rounded.displacement, moved);
+    return open_sides(rounded.state);
   }
 
   /// Gives vertices their places back, keeps strips, and bounds the distance from the given surface.
