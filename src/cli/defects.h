@@ -9,8 +9,10 @@
 
 namespace holdfast::cli {
 
-/// The number of defects per cause in a list on a terminal, and in lists that the user did not ask for.
+/// The number of defects per cause in a list on a terminal, in a redirected one, and in lists that the user
+/// did not ask for.
 inline constexpr std::size_t shown_on_terminal = 100;
+inline constexpr std::size_t shown_elsewhere = 1000;
 inline constexpr std::size_t shown_in_passing = 20;
 
 /// The defect's message, followed by the options that do what it advises.

@@ -162,13 +162,15 @@ int diagnose_files(const DiagnoseArguments& arguments, DiagnoseOptions options,
   if (!arguments.marks.empty()) write_marks(arguments.marks, surface.view(), defects);
   const Report::Input input = count_vertices(surface);
   if (!arguments.quiet) print_merged(input);
-  const Json report = report_of(surface, input, found);
-  write_json(arguments.report, report);
-  write_json(json, report);
-  write_html(arguments, options, surface, defects, report);
+  if (!arguments.report.empty() || !json.empty() || !arguments.html.empty()) {  // else not worth its memory
+    const Json report = report_of(surface, input, found);
+    write_json(arguments.report, report);
+    write_json(json, report);
+    write_html(arguments, options, surface, defects, report);
+  }
   if (!arguments.quiet && !arguments.json) {
-    const bool cut = !arguments.all && files.list_is_on_terminal();
-    files.list(listing_of(input, found, cut ? shown_on_terminal : SIZE_MAX));
+    const std::size_t most = files.list_is_on_terminal() ? shown_on_terminal : shown_elsewhere;
+    files.list(listing_of(input, found, arguments.all ? SIZE_MAX : most));
   }
   if (defects.empty()) return exit_done;
   say("holdfast: the surface is not valid: {}{}\n", counted(defects.size(), "defect"),
@@ -210,7 +212,8 @@ void add_diagnose(CLI::App& app, Command& chosen) {
       ->option_text("FILE.vtu");
   add_report(*command, arguments->report, "Write the defects as JSON");
   add_html_option(*command, arguments->html);
-  command->add_flag("--all", arguments->all, "List every defect on a terminal, too, not only 100 of a kind");
+  command->add_flag("--all", arguments->all,
+                    "List every defect, not only 1,000 of a kind (100 on a terminal)");
   command->add_flag("--json", arguments->json, "Print the defects as JSON");
   add_tolerance(*command, arguments->tolerance);
   add_input_format(*command, arguments->input_format, "Surface format");

@@ -186,8 +186,17 @@ class LongLists(CliTest):
         self.assertIn("... and 200 more like these; --all", shown)
         self.assertEqual(self.on_terminal("diagnose", "rows.off", "--all").count("repeated facet:"), 300)
 
-    def test_a_file_gets_all(self):
+    def test_a_file_gets_a_thousand_of_a_kind(self):
         self.assertEqual(self.run_program("diagnose", "rows.off", expect=4).stdout.count("repeated facet:"), 300)
+        points = [(i, j, 0) for i in range(1203) for j in range(2)]
+        self.write("long.off", off(points, 2 * [(2 * i, 2 * i + 1, 2 * i + 2) for i in range(1202)]))
+        told = self.run_program("diagnose", "long.off", "--report", "all.json", expect=4)
+        self.assertIn("1202 defects", told.stdout.splitlines()[0])
+        self.assertEqual(told.stdout.count("repeated facet:"), 1000)
+        self.assertIn("... and 202 more like these; --all lists them, --report FILE.json, too\n", told.stdout)
+        self.assertEqual(len(json.loads((self.folder / "all.json").read_text())["defects"]), 1202)
+        told = self.run_program("diagnose", "long.off", "--all", expect=4)
+        self.assertEqual(told.stdout.count("repeated facet:"), 1202)
 
     def test_mesh_shows_the_summary_and_a_few(self):
         said = self.run_program("mesh", "rows.off", "-o", "a.vtu", expect=4).stderr
