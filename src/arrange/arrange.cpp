@@ -14,6 +14,7 @@
 #include "arrange/point_pool.h"
 #include "arrange/sheet.h"
 #include "mesh/disjoint_sets.h"
+#include "numbers/release.h"
 #include "numbers/sorted.h"
 
 namespace holdfast::arrange {
@@ -40,18 +41,15 @@ class Arranging {
     tell_fitted(pairs);
     std::sort(pairs.begin(), pairs.end());
     const FacetPlanes planes(complex_, elements_, facets_of(pairs), options_.threads);
-    const Meetings meetings =
-        find_meetings(complex_, elements_, pairs, planes, pool_, step_, options_.threads);
-    pairs = {};
+    Meetings meetings = find_meetings(complex_, elements_, pairs, planes, pool_, step_, options_);
+    release(pairs);
     check_size();
     gather(meetings);
-    Crossings crossings(planes);
-    triangulate_sheets(crossings);
-    number_points();
-    deliver_facets();
+    cut_sheets(planes);
     deliver_segments(meetings);
-    result_.points = pool_.take_exact();
-    result_.nearest = pool_.take_nearest();
+    meetings = {};
+    deliver_points();
+    deliver_facets();
     result_.sheets = sheets_.size();
     for (const Flaw& flaw : elements_.flaws)
       if (flaw.corners > 1) result_.left_out.push_back(flaw);
@@ -60,8 +58,7 @@ class Arranging {
 
  private:
   void check_size() const {
-    const std::size_t added = pool_.size() - pool_.vertices();
-    if (added > options_.most_points) throw TooManyPoints(added);
+    if (pool_.added() > options_.most_points) throw TooManyPoints(pool_.added());
   }
 
   // --- Sheets
@@ -126,14 +123,18 @@ class Arranging {
     return is_facet;
   }
 
+  void cut_sheets(const FacetPlanes& planes) {
+    Crossings crossings(planes);
+    triangulate_sheets(crossings);
+    number_points();
+  }
+
   void triangulate_sheets(Crossings& crossings) {
     cut_.resize(sheets_.size());
     const std::thread::id caller = std::this_thread::get_id();
     std::size_t done = 0;
-    // Other sheets may count the points of a sheet again; this many are too many even without that.
-    constexpr std::size_t kFar = 16;
-    const std::size_t far_too_many =
-        options_.most_points < SIZE_MAX / kFar ? kFar * options_.most_points : SIZE_MAX;
+    // Other sheets may count the points of a sheet again.
+    const std::size_t far_too_many = options_.far_too_many();
     parallel_ranges(options_.threads, sheets_.size(), [&](std::size_t first, std::size_t last) {
       const bool tells = std::this_thread::get_id() == caller;
       std::size_t polls = 0;
@@ -145,6 +146,9 @@ class Arranging {
         const Gathered& sheet = sheets_[k];
         cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces, sheet.on_sides, far_too_many},
                               complex_, elements_, pool_, crossings, poll);
+        cut_[k].triangles.shrink_to_fit();
+        cut_[k].parents.shrink_to_fit();
+        cut_[k].first_parent.shrink_to_fit();
         if (tells) done = k;
       }
     });
@@ -155,7 +159,7 @@ class Arranging {
     const Index before = pool_.size();
     for (SheetTriangles& cut : cut_) {
       std::vector<Index> number;
-      for (CrossingPoint* crossing : cut.points) {
+      for (CrossingPoint* crossing : std::exchange(cut.points, {})) {
         if (crossing->number == no_index)
           crossing->number = pool_.add(std::move(crossing->point), crossing->nearest);
         number.push_back(crossing->number);
@@ -174,15 +178,42 @@ class Arranging {
 
   // --- Results
 
-  void deliver_facets() {
-    // Triangles by their first parents, which are elements.
-    std::vector<std::vector<std::array<Index, 2>>> of_sheet(sheets_.size());  // {first parent, triangle}
-    for (std::size_t s = 0; s < sheets_.size(); ++s) {
-      const SheetTriangles& cut = cut_[s];
-      for (Index t = 0; t < cut.triangles.size(); ++t)
-        of_sheet[s].push_back({cut.parents[cut.first_parent[t]], t});
-      std::sort(of_sheet[s].begin(), of_sheet[s].end());
+  void deliver_points() {
+    result_.nearest = pool_.take_nearest();
+    std::vector<exact::PackedPoint> points = pool_.take_exact();
+    result_.distances.resize(points.size());
+    parallel_ranges(options_.threads, points.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k)
+        result_.distances[k] = exact::distance_bound(points[k].point(), result_.nearest[k].data());
+    });
+    if (options_.keeps_points) result_.points = std::move(points);
+  }
+
+  /// {first parent, triangle} of a sheet, by the first parents, which are elements.
+  [[nodiscard]] static std::vector<std::array<Index, 2>> by_first_parents(const SheetTriangles& cut) {
+    std::vector<std::array<Index, 2>> all;
+    all.reserve(cut.triangles.size());
+    for (Index t = 0; t < cut.triangles.size(); ++t) all.push_back({cut.parents[cut.first_parent[t]], t});
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  void reserve_facets() {
+    std::size_t facets = complex_.facets.size(), parents = facets;
+    for (const SheetTriangles& cut : cut_) {
+      facets += cut.triangles.size();
+      parents += cut.parents.size();
     }
+    result_.facets.reserve(facets);
+    result_.facet_sheet.reserve(facets);
+    result_.facet_parents.first.reserve(facets + 1);
+    result_.facet_parents.all.reserve(parents);
+  }
+
+  /// A sheet ends as soon as its last triangle is delivered.
+  void deliver_facets() {
+    reserve_facets();
+    std::vector<std::vector<std::array<Index, 2>>> of_sheet(sheets_.size());  // once it begins
     std::vector<std::size_t> next(sheets_.size(), 0);
     std::vector<Index> parents;
     for (Index i = 0; i < elements_.all.size() && elements_.all[i].corners == 3; ++i) {
@@ -191,7 +222,8 @@ class Arranging {
         deliver(elements_.all[i].vertex, std::array{elements_.all[i].id}, no_index);
         continue;
       }
-      const SheetTriangles& cut = cut_[s];
+      SheetTriangles& cut = cut_[s];
+      if (next[s] == 0) of_sheet[s] = by_first_parents(cut);
       for (auto& k = next[s]; k < of_sheet[s].size() && of_sheet[s][k][0] == i; ++k) {
         const Index t = of_sheet[s][k][1];
         parents.clear();
@@ -199,6 +231,9 @@ class Arranging {
           parents.push_back(elements_.all[cut.parents[p]].id);
         deliver(cut.triangles[t], parents, cut.fits_rounded ? s : no_index);
       }
+      if (next[s] < of_sheet[s].size()) continue;
+      release(of_sheet[s]);
+      cut = {};
     }
   }
 

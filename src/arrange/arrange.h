@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/space_point.h"
+#include "exact/packed_point.h"
 #include "holdfast/types.h"
 #include "mesh/parallel.h"
 #include "surface/elements.h"
@@ -37,10 +37,11 @@ struct Parents {
 };
 
 struct Arrangement {
-  /// Points that are not vertices of the complex: if the complex has n vertices, point k is vertex n + k
-  /// below.
-  std::vector<exact::SpacePoint> points;
-  std::vector<Point> nearest;  ///< the nearest doubles of each point
+  // Points that are not vertices of the complex: if the complex has n vertices, point k is vertex n + k
+  // below.
+  std::vector<Point> nearest;              ///< the doubles nearest to each point
+  std::vector<double> distances;           ///< of each point from these, rounded up
+  std::vector<exact::PackedPoint> points;  ///< if ArrangeOptions::keeps_points
   /// In the order and orientation of their first parents. Corners are the first vertices at their places.
   std::vector<Triangle> facets;
   Parents facet_parents;  ///< facets of the complex, in ascending order: several where these overlapped
@@ -62,6 +63,13 @@ struct ArrangeOptions {
   Threads threads = 1;
   Known known = {};                    ///< see surface/search.h
   std::size_t most_points = SIZE_MAX;  ///< new ones; more of them throw TooManyPoints
+  bool keeps_points = false;           ///< the exact new points are asked for
+
+  /// A number of points that is too many even if each is counted several times.
+  [[nodiscard]] std::size_t far_too_many() const {
+    constexpr std::size_t kFar = 16;
+    return most_points < SIZE_MAX / kFar ? kFar * most_points : SIZE_MAX;
+  }
 };
 
 class TooManyPoints : public std::exception {

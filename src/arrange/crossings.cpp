@@ -13,18 +13,18 @@ CrossingPoint& Crossings::of_facets(std::array<Index, 3> facets) {
   const auto fresh = static_cast<Index>(part.all.size());
   const Index number = part.of_facets.find_or_add(facets, fresh);
   if (number == fresh) {
-    exact::SpacePoint point = exact::crossing(planes_[facets[0]], planes_[facets[1]], planes_[facets[2]]);
-    const Point nearest = exact::nearest(point);
-    part.all.push_back({std::move(point), nearest});
+    const exact::SpacePoint point =
+        exact::crossing(planes_[facets[0]], planes_[facets[1]], planes_[facets[2]]);
+    part.all.push_back({exact::PackedPoint(point), exact::nearest(point)});
   }
   return part.all[number];
 }
 
-CrossingPoint& Crossings::add(exact::SpacePoint point) {
-  const Point nearest = exact::nearest(point);
+CrossingPoint& Crossings::add(const exact::SpacePoint& point) {
+  CrossingPoint crossing{exact::PackedPoint(point), exact::nearest(point)};
   Part& part = parts_[0];
   const std::lock_guard lock(part.mutex);
-  return part.all.emplace_back(CrossingPoint{std::move(point), nearest});
+  return part.all.emplace_back(std::move(crossing));
 }
 
 }  // namespace holdfast::arrange

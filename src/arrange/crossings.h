@@ -8,13 +8,13 @@
 
 #include "arrange/facet_planes.h"
 #include "arrange/index_table.h"
-#include "exact/space_point.h"
+#include "exact/packed_point.h"
 #include "holdfast/types.h"
 
 namespace holdfast::arrange {
 
 struct CrossingPoint {
-  exact::SpacePoint point;
+  exact::PackedPoint point;
   Point nearest;            ///< the doubles nearest to it
   Index number = no_index;  ///< in the pool of points, once it is there
 };
@@ -28,7 +28,7 @@ class Crossings {
   /// The point of the planes of three facets, which are indices of Elements::all.
   CrossingPoint& of_facets(std::array<Index, 3> facets);
   /// Some other point.
-  CrossingPoint& add(exact::SpacePoint point);
+  CrossingPoint& add(const exact::SpacePoint& point);
 
  private:
   /// Points by the facets that define them, in shards with a lock each.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "numbers/sorted.h"
 
@@ -80,10 +82,10 @@ Meeting meeting_of(const OffendingPair& pair) {
   return meeting;
 }
 
-/// Numbers the ends that are not vertices. They are computed on all threads and numbered in the order of the
-/// crossings.
+/// Numbers the ends that are not vertices. They are computed on all threads, some at a time, and numbered in
+/// the order of the crossings.
 void number(std::vector<End>& ends, std::vector<Meeting>& meetings, const Complex& complex,
-            const FacetPlanes& planes, PointPool& pool, const Step& step, const Threads& threads) {
+            const FacetPlanes& planes, PointPool& pool, const Step& step, const ArrangeOptions& options) {
   std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
     return std::tuple(a.crossing.tied(), a.meeting, a.which) <
            std::tuple(b.crossing.tied(), b.meeting, b.which);
@@ -91,26 +93,34 @@ void number(std::vector<End>& ends, std::vector<Meeting>& meetings, const Comple
   std::vector<std::size_t> firsts;
   for (std::size_t k = 0; k < ends.size(); ++k)
     if (k == 0 || !(ends[k].crossing == ends[k - 1].crossing)) firsts.push_back(k);
-  std::vector<exact::SpacePoint> points(firsts.size());
-  std::vector<Point> nearest(firsts.size());
-  parallel_ranges(threads, firsts.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      points[k] = point_of(complex, planes, ends[firsts[k]].crossing);
-      nearest[k] = exact::nearest(points[k]);
+  firsts.push_back(ends.size());
+  const std::size_t all = firsts.size() - 1, at_once = std::min<std::size_t>(all, 16384);
+  std::vector<std::optional<exact::PackedPoint>> points(at_once);
+  std::vector<Point> nearest(at_once);
+  for (std::size_t begin = 0; begin < all; begin += at_once) {
+    step(0.4);
+    const std::size_t count = std::min(at_once, all - begin);
+    parallel_ranges(options.threads, count, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
+        const exact::SpacePoint point = point_of(complex, planes, ends[firsts[begin + k]].crossing);
+        points[k].emplace(point);
+        nearest[k] = exact::nearest(point);
+      }
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      const Index p = pool.add(*std::move(points[k]), nearest[k]);
+      for (std::size_t e = firsts[begin + k]; e < firsts[begin + k + 1]; ++e)
+        meetings[ends[e].meeting].points[ends[e].which] = p;
     }
-  });
-  for (std::size_t k = 0; k < firsts.size(); ++k) {
-    if (k % 4096 == 0) step(0.4);
-    const Index p = pool.add(std::move(points[k]), nearest[k]);
-    const std::size_t last = k + 1 < firsts.size() ? firsts[k + 1] : ends.size();
-    for (std::size_t e = firsts[k]; e < last; ++e) meetings[ends[e].meeting].points[ends[e].which] = p;
+    if (pool.added() > options.far_too_many()) throw TooManyPoints(pool.added());
   }
 }
 
 }  // namespace
 
 Meetings find_meetings(const Complex& complex, const Elements& elements, std::span<const OffendingPair> pairs,
-                       const FacetPlanes& planes, PointPool& pool, const Step& step, const Threads& threads) {
+                       const FacetPlanes& planes, PointPool& pool, const Step& step,
+                       const ArrangeOptions& options) {
   Meetings meetings;
   std::vector<End> ends;
   for (const OffendingPair& pair : pairs) {
@@ -132,7 +142,7 @@ Meetings find_meetings(const Complex& complex, const Elements& elements, std::sp
     }
     meetings.all.push_back(meeting);
   }
-  number(ends, meetings.all, complex, planes, pool, step, threads);
+  number(ends, meetings.all, complex, planes, pool, step, options);
   return meetings;
 }
 

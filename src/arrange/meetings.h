@@ -42,10 +42,11 @@ struct OffendingPair {
   friend bool operator<(const OffendingPair& a, const OffendingPair& b) { return a.elements < b.elements; }
 };
 
-/// `planes`: of all facets of the pairs. New points go into the pool.
+/// `planes`: of all facets of the pairs. New points go into the pool. Throws TooManyPoints if there are many
+/// more than the options allow; if there are only some more, the caller will find that.
 [[nodiscard]] Meetings find_meetings(const Complex& complex, const Elements& elements,
                                      std::span<const OffendingPair> pairs, const FacetPlanes& planes,
-                                     PointPool& pool, const Step& step, const Threads& threads);
+                                     PointPool& pool, const Step& step, const ArrangeOptions& options);
 
 /// The line of a trace that a meeting leaves on the plane of its first (0) or second (1) element.
 [[nodiscard]] Line line_of(const Meeting& meeting, std::size_t element, const Elements& elements);

@@ -21,12 +21,12 @@ bool PointPool::is_at(Index p, const exact::SpacePoint& point) const {
   return exact::equal(is_vertex(p) ? exact::space_point(vertices_[p].data()) : exact(p), point);
 }
 
-Index PointPool::add(exact::SpacePoint point, const Point& at) {
+Index PointPool::add(exact::PackedPoint point, const Point& at) {
   const Index fresh = size();
   const auto point_of = [&](Index v) -> const Point& { return v == fresh ? at : nearest(v); };
   Index p = table_.find_or_add(at, PlaceTable::hash_of(at), fresh, point_of);
   if (p != fresh) {
-    while (!is_at(p, point)) {
+    for (const exact::SpacePoint unpacked = point.point(); !is_at(p, unpacked);) {
       if (next_[p] == no_index) {
         next_[p] = fresh;
         p = fresh;

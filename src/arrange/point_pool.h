@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/space_point.h"
+#include "exact/packed_point.h"
 #include "holdfast/types.h"
 #include "surface/weld.h"
 
@@ -20,14 +20,15 @@ class PointPool {
   PointPool(std::span<const Point> vertices, std::span<const Index> first);
 
   /// The number of the point at this place; `nearest` are the doubles nearest to it.
-  Index add(exact::SpacePoint point, const Point& nearest);
+  Index add(exact::PackedPoint point, const Point& nearest);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(vertices_.size() + exact_.size()); }
-  [[nodiscard]] Index vertices() const { return static_cast<Index>(vertices_.size()); }
+  /// The number of points that are no vertices.
+  [[nodiscard]] std::size_t added() const { return exact_.size(); }
   [[nodiscard]] bool is_vertex(Index p) const { return p < vertices_.size(); }
   [[nodiscard]] std::span<const Point> coordinates() const { return vertices_; }
   /// Of a point that is no vertex.
-  [[nodiscard]] const exact::SpacePoint& exact(Index p) const { return exact_[p - vertices_.size()]; }
+  [[nodiscard]] exact::SpacePoint exact(Index p) const { return exact_[p - vertices_.size()].point(); }
   /// Of any point.
   [[nodiscard]] const Point& nearest(Index p) const {
     return is_vertex(p) ? vertices_[p] : nearest_[p - vertices_.size()];
@@ -35,14 +36,14 @@ class PointPool {
   /// Sign of p - q in lexicographic order.
   [[nodiscard]] int compare(Index p, Index q) const;
 
-  std::vector<exact::SpacePoint> take_exact() { return std::move(exact_); }
+  std::vector<exact::PackedPoint> take_exact() { return std::move(exact_); }
   std::vector<Point> take_nearest() { return std::move(nearest_); }
 
  private:
   [[nodiscard]] bool is_at(Index p, const exact::SpacePoint& point) const;
 
   std::span<const Point> vertices_;
-  std::vector<exact::SpacePoint> exact_;
+  std::vector<exact::PackedPoint> exact_;
   std::vector<Point> nearest_;
   PlaceTable table_;         // by nearest doubles, the first point with these
   std::vector<Index> next_;  // by point, the next one with the same nearest doubles

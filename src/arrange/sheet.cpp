@@ -73,7 +73,7 @@ class SheetPoints {
   Vertex add_crossing(CrossingPoint& crossing) {
     point_of_.push_back(given_.pool.size() + static_cast<Index>(crossings_.size()));
     crossings_.push_back(&crossing);
-    return points_.add(exact::projected(crossing.point, given_.axis), given_.flat(crossing.nearest));
+    return points_.add(exact::projected(crossing.point.point(), given_.axis), given_.flat(crossing.nearest));
   }
   [[nodiscard]] std::size_t crossings() const { return crossings_.size(); }
   std::vector<CrossingPoint*> take_crossings() { return std::move(crossings_); }

@@ -4,22 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "exact/space_point.h"
-
 namespace holdfast::repairing {
 
 double sum_above(double a, double b) {
   if (a == 0 || b == 0) return a + b;
   return std::nextafter(a + b, std::numeric_limits<double>::infinity());
-}
-
-std::vector<double> rounded_by(const arrange::Arrangement& arrangement, const Threads& threads) {
-  std::vector<double> all(arrangement.points.size());
-  parallel_ranges(threads, all.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k)
-      all[k] = exact::distance_bound(arrangement.points[k], arrangement.nearest[k].data());
-  });
-  return all;
 }
 
 double largest(const std::vector<double>& distances) {

@@ -4,17 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "arrange/arrange.h"
 #include "holdfast/types.h"
-#include "mesh/parallel.h"
 
 namespace holdfast::repairing {
 
 /// Sums of numbers that are rounded up.
 [[nodiscard]] double sum_above(double a, double b);
-
-/// The distance of each new point from the doubles nearest to it.
-[[nodiscard]] std::vector<double> rounded_by(const arrange::Arrangement& arrangement, const Threads& threads);
 
 [[nodiscard]] double largest(const std::vector<double>& distances);
 

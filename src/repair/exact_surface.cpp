@@ -15,8 +15,10 @@ std::string quotient_text(const exact::BigInt& numerator, const exact::BigInt& d
 
 ExactSurface exact_surface(const arrange::Arrangement& arrangement, const Parents& of_state) {
   ExactSurface surface;
-  for (const exact::SpacePoint& p : arrangement.points)
+  for (const exact::PackedPoint& packed : arrangement.points) {
+    const exact::SpacePoint p = packed.point();
     surface.points.push_back({quotient_text(p.x, p.w), quotient_text(p.y, p.w), quotient_text(p.z, p.w)});
+  }
   surface.facets = arrangement.facets;
   surface.parents = lists_of(composed(of_state, arrangement.facet_parents));
   return surface;

@@ -318,7 +318,8 @@ std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
   arrange::Arrangement arrangement;
   if (proven_) proven_->tell(rounded_.state);
   try {
-    arrangement = arrangement_of(rounded_.state, most_points, here(), threads_);
+    const bool keeps_points = report_.rounds == 0 && options_.exact;
+    arrangement = arrangement_of(rounded_.state, most_points, here(), threads_, keeps_points);
   } catch (const arrange::TooManyPoints& many) {
     if (report_.rounds == 0 && !is_plane_) throw;
     too_many_ = many.count();
@@ -332,11 +333,11 @@ std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
   }
   if (report_.rounds == 0 && options_.exact) exact_.surface = exact_surface(arrangement, exact_.of_given);
   if (before != nullptr) before->known = arrangement.fitted;
-  tell_round(report_, arrangement);
-  const std::vector<double> distances = rounded_by(arrangement, threads_);
-  rounded_.displacement = sum_above(rounded_.displacement, largest(distances));
-  rounded_.state = arranged(rounded_.state, arrangement, distances);
-  return distances.size();
+  const RoundSizes sizes(arrangement);
+  tell_round(report_, sizes);
+  rounded_.displacement = sum_above(rounded_.displacement, largest(arrangement.distances));
+  rounded_.state = arranged(rounded_.state, std::move(arrangement));
+  return sizes.points;
 }
 
 void Ladder::cut_if_better() {
@@ -347,14 +348,14 @@ void Ladder::cut_if_better() {
   } catch (const arrange::TooManyPoints&) {
     return;
   }
-  const std::vector<double> distances = rounded_by(arrangement, threads_);
-  Attempt cut{arranged(rounded_.state, arrangement, distances), {}, 0};
+  const RoundSizes sizes(arrangement);
+  const double displacement = sum_above(rounded_.displacement, largest(arrangement.distances));
+  Attempt cut{arranged(rounded_.state, std::move(arrangement)), {}, displacement};
   const std::size_t too_much = 2 * trouble_.size() + 24;
   cut.trouble = trouble_of(cut.state, here(), threads_, too_much);
   if (cut.trouble.size() > too_much) return;
-  cut.displacement = sum_above(rounded_.displacement, largest(distances));
   stand(std::move(cut));
-  tell_round(report_, arrangement);
+  tell_round(report_, sizes);
 }
 
 }  // namespace holdfast::repairing

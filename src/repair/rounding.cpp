@@ -47,7 +47,7 @@ class ArrangedRounding {
   Rounded run() {
     Rounded rounded = climb();
     if (rounded.is_valid) follow_given(rounded);
-    rounded.state.facet_parents = composed(of_given_, rounded.state.facet_parents);
+    rounded.state.facet_parents = composed(of_given_, std::move(rounded.state.facet_parents));
     return rounded;
   }
 

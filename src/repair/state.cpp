@@ -3,11 +3,23 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "numbers/sorted.h"
 #include "surface/complex.h"
 
 namespace holdfast::repairing {
+
+namespace {
+
+bool is_identity(const Parents& parents) {
+  if (parents.all.size() != parents.size()) return false;
+  for (std::size_t i = 0; i < parents.size(); ++i)
+    if (parents.first[i] != i || parents.all[i] != i) return false;
+  return true;
+}
+
+}  // namespace
 
 Parents identity(std::size_t count) {
   Parents parents;
@@ -18,8 +30,11 @@ Parents identity(std::size_t count) {
   return parents;
 }
 
-Parents composed(const Parents& before, const Parents& now) {
+Parents composed(const Parents& before, Parents now) {
+  if (is_identity(before)) return now;
   Parents parents;
+  parents.first.reserve(now.first.size());
+  parents.all.reserve(now.all.size());
   std::vector<Index> list;
   for (std::size_t i = 0; i < now.size(); ++i) {
     list.clear();
@@ -74,6 +89,8 @@ std::vector<Index> drop_unused(State& state) {
 }
 
 KnownElements::KnownElements(const State& state, const Elements& elements) {
+  if (!state.known.empty()) each_.reserve(elements.all.size());
+  if (!state.sheet.empty()) sheet_.reserve(elements.all.size());
   for (const Element& e : elements.all) {
     if (!state.known.empty())
       each_.push_back(e.corners == 3 ? state.known[e.id] : e.corners == 1 && state.knows_vertices ? 1 : 0);
@@ -93,7 +110,7 @@ State state_of(const Complex& complex) {
 }
 
 arrange::Arrangement arrangement_of(const State& state, std::size_t most_points, const Step& step,
-                                    const Threads& threads) {
+                                    const Threads& threads, bool keeps_points) {
   const Complex complex = state.complex();
   const Elements elements = elements_of(complex, threads);
   const KnownElements known(state, elements);
@@ -101,23 +118,24 @@ arrange::Arrangement arrangement_of(const State& state, std::size_t most_points,
   arranging.threads = threads;
   arranging.known = known.known();
   arranging.most_points = most_points;
+  arranging.keeps_points = keeps_points;
   return arrange::arrange(complex, elements, step, arranging);
 }
 
-State arranged(const State& before, const arrange::Arrangement& arrangement,
-               std::span<const double> distances) {
+State arranged(const State& before, arrange::Arrangement arrangement) {
   State state;
   state.input_vertices = before.input_vertices;
+  state.vertices.reserve(before.vertices.size() + arrangement.nearest.size());
   state.vertices = before.vertices;
   state.vertices.insert(state.vertices.end(), arrangement.nearest.begin(), arrangement.nearest.end());
-  state.facets = arrangement.facets;
-  state.segments = arrangement.segments;
-  state.facet_parents = composed(before.facet_parents, arrangement.facet_parents);
-  state.segment_parents = composed(before.segment_parents, arrangement.segment_parents);
-  state.sheet = arrangement.facet_sheet;
+  state.facets = std::move(arrangement.facets);
+  state.segments = std::move(arrangement.segments);
+  state.facet_parents = composed(before.facet_parents, std::move(arrangement.facet_parents));
+  state.segment_parents = composed(before.segment_parents, std::move(arrangement.segment_parents));
+  state.sheet = std::move(arrangement.facet_sheet);
   state.known.reserve(state.facets.size());
   const auto stands = [&](Index v) {
-    return v < before.vertices.size() || distances[v - before.vertices.size()] == 0;
+    return v < before.vertices.size() || arrangement.distances[v - before.vertices.size()] == 0;
   };
   for (const Triangle& t : state.facets)
     state.known.push_back(std::all_of(t.begin(), t.end(), stands) ? 1 : 0);

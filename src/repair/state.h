@@ -16,8 +16,8 @@ using arrange::Parents;
 
 /// Each entity is its own parent.
 [[nodiscard]] Parents identity(std::size_t count);
-/// Parents of parents, each once, ascending.
-[[nodiscard]] Parents composed(const Parents& before, const Parents& now);
+/// Parents of parents, each once, ascending; the lists of `now` are so, too.
+[[nodiscard]] Parents composed(const Parents& before, Parents now);
 /// In the form that the caller gets.
 [[nodiscard]] IndexLists lists_of(const Parents& parents);
 
@@ -68,14 +68,15 @@ std::vector<Index> drop_unused(State& state);
 /// The state of the unchanged input.
 [[nodiscard]] State state_of(const Complex& complex);
 
-/// The exact arrangement of a state.
+/// The exact arrangement of a state, if it has at most this many new points. `keeps_points`: see
+/// ArrangeOptions.
 [[nodiscard]] arrange::Arrangement arrangement_of(const State& state, std::size_t most_points,
-                                                  const Step& step, const Threads& threads);
+                                                  const Step& step, const Threads& threads,
+                                                  bool keeps_points = false);
 
 /// The state after an arrangement. Unused vertices are removed, except those of the input. New points stand
-/// at their nearest doubles, at a distance of `distances[k]` for point k. An arrangement is a complex, so
-/// facets whose corners are not rounded fit together.
-[[nodiscard]] State arranged(const State& before, const arrange::Arrangement& arrangement,
-                             std::span<const double> distances);
+/// at their nearest doubles. An arrangement is a complex, so facets whose corners are not rounded fit
+/// together.
+[[nodiscard]] State arranged(const State& before, arrange::Arrangement arrangement);
 
 }  // namespace holdfast::repairing

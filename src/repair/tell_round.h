@@ -6,13 +6,20 @@
 
 namespace holdfast::repairing {
 
-/// Adds a round, with its arrangement.
-inline void tell_round(RepairReport& report, const arrange::Arrangement& arrangement) {
+/// The sizes of an arrangement.
+struct RoundSizes {
+  explicit RoundSizes(const arrange::Arrangement& arrangement)
+      : pairs(arrangement.pairs), sheets(arrangement.sheets), points(arrangement.nearest.size()) {}
+  std::size_t pairs, sheets, points;
+};
+
+/// Adds a round.
+inline void tell_round(RepairReport& report, const RoundSizes& sizes) {
   if (++report.rounds == 1) {
-    report.pairs = arrangement.pairs;
-    report.sheets = arrangement.sheets;
-    report.points = arrangement.points.size();
-    if (!arrangement.points.empty()) report.rung = Rung::nearest;
+    report.pairs = sizes.pairs;
+    report.sheets = sizes.sheets;
+    report.points = sizes.points;
+    if (sizes.points > 0) report.rung = Rung::nearest;
   } else if (report.rung < Rung::again) {
     report.rung = Rung::again;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mesh/parallel.h"
+#include "numbers/release.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -67,7 +68,7 @@ void AabbTree::build_all(const Threads& threads) {
       if (node.left != 0) node.left += moved_by;
     nodes_[roots[k]] = subtrees[k][0];
     nodes_.insert(nodes_.end(), subtrees[k].begin() + 1, subtrees[k].end());
-    subtrees[k] = {};
+    release(subtrees[k]);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "exact/predicates.h"
 #include "mesh/parallel.h"
+#include "numbers/release.h"
 #include "surface/aabb_tree.h"
 #include "surface/complex.h"
 #include "surface/hubs.h"
@@ -155,19 +156,12 @@ class Search {
         step_(step),
         patience_((known.sheet.empty() ? tuning.patience : tuning.sheet_patience) * elements.all.size()),
         threads_(tuning.threads),
-        hubs_(complex, elements, tuning.hub_degree) {
-    if (known.sheet.empty()) return;
-    sides_.reserve(elements.all.size());
-    for (const Element& e : elements.all) {
-      const auto at = [&](unsigned i) { return complex.vertices[e.vertex[i < e.corners ? i : 0]].data(); };
-      sides_.emplace_back(at(0), at(1), at(2));
-    }
-  }
+        hubs_(complex, elements, tuning.hub_degree) {}
 
   void run() {
     if (elements_.all.empty()) return;
     if (!known_.sheet.empty()) {
-      const SheetPairs sheets(complex_, elements_, known_.sheet, known_.each, threads_);
+      SheetPairs sheets(complex_, elements_, known_.sheet, known_.each);
       if (!sheets.are_too_many()) {
         if (!search_sheets(sheets)) return;
         done_ = known_.sheet;
@@ -183,19 +177,22 @@ class Search {
 
  private:
   // Searches the pairs of facets of sheets. False: stopped.
-  bool search_sheets(const SheetPairs& sheets) {
+  bool search_sheets(SheetPairs& sheets) {
     const std::size_t count = sheets.all().size();
     if (threads_.count() > 1 && elements_.all.size() >= kWorthThreads && all_sheets_fit(sheets)) return true;
     const SheetPairs::Visit visit = [&](Index i, Index j) { return test(i, j, visit_); };
-    for (std::size_t k = 0; k < count; ++k) {
-      if (k % 64 == 0) step_(static_cast<double>(k) / static_cast<double>(count));
-      if (!sheets.for_each(sheets.all()[k], visit)) return false;
+    for (const SheetPairs::Batch& batch : sheets.batches()) {
+      sheets.prepare(batch, threads_);
+      for (std::size_t k = batch.first; k < batch.last; ++k) {
+        if (k % 64 == 0) step_(static_cast<double>(k) / static_cast<double>(count));
+        if (!sheets.for_each(sheets.all()[k], visit)) return false;
+      }
     }
     return true;
   }
 
   // Whether no pair of facets of sheets is offending; works on all threads, like all_fit_in.
-  [[nodiscard]] bool all_sheets_fit(const SheetPairs& sheets) const {
+  [[nodiscard]] bool all_sheets_fit(SheetPairs& sheets) const {
     std::atomic<bool> stop = false;
     const std::thread::id calling_thread = std::this_thread::get_id();
     const VisitPair found = [&](Index, Index, const Contacts&) {
@@ -204,13 +201,17 @@ class Search {
     };
     const SheetPairs::Visit visit = [&](Index i, Index j) { return !stop && test(i, j, found); };
     const std::size_t count = sheets.all().size();
-    parallel_ranges(threads_, count, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last && !stop; ++k) {
-        if (k % 64 == 0 && std::this_thread::get_id() == calling_thread)
-          step_(static_cast<double>(k) / static_cast<double>(count));
-        sheets.for_each(sheets.all()[k], visit);
-      }
-    });
+    for (const SheetPairs::Batch& batch : sheets.batches()) {
+      sheets.prepare(batch, threads_);
+      parallel_ranges(threads_, batch.last - batch.first, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = batch.first + first; k < batch.first + last && !stop; ++k) {
+          if (k % 64 == 0 && std::this_thread::get_id() == calling_thread)
+            step_(static_cast<double>(k) / static_cast<double>(count));
+          sheets.for_each(sheets.all()[k], visit);
+        }
+      });
+      if (stop) break;
+    }
     return !stop;
   }
 
@@ -220,7 +221,7 @@ class Search {
     const AabbTree tree(boxes, hubs_.fans(), threads_);
     Box all = boxes[0];
     for (const Box& box : boxes) all.extend(box);
-    boxes = {};  // the tree has its own
+    release(boxes);  // the tree has its own
     if (threads_.count() > 1 && elements_.all.size() >= kWorthThreads && all_fit_in(tree, all)) return true;
     NodeSkip skip(complex_, elements_, known_.each, done_, hubs_, tree, all, patience_);
     bool go_on = true;
@@ -316,10 +317,12 @@ class Search {
   // Whether all corners of j that are not corners of i are surely strictly on one side of i's plane.
   [[nodiscard]] bool is_on_one_side(Index i, Index j) const {
     const std::array<Index, 3>& t = elements_.all[i].vertex;
+    const auto at = [&](Index v) { return complex_.vertices[v].data(); };
+    const exact::OrientFilter side(at(t[0]), at(t[1]), at(t[2]));
     int sides = 0, count = 0;
     for (const Index v : elements_.all[j].vertex) {
       if (v == t[0] || v == t[1] || v == t[2]) continue;
-      sides += sides_[i](complex_.vertices[v].data());
+      sides += side(at(v));
       ++count;
     }
     return count > 0 && (sides == count || sides == -count);
@@ -333,8 +336,7 @@ class Search {
   std::size_t patience_;
   Threads threads_;
   Hubs hubs_;
-  std::vector<exact::OrientFilter> sides_;  // of each facet's plane, if there are sheets
-  std::span<const Index> done_;             // sheets, once their pairs are searched
+  std::span<const Index> done_;  // sheets, once their pairs are searched
 };
 
 // The unknown elements, and those whose boxes overlap the box of an unknown one.

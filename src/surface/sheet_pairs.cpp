@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "numbers/release.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -38,14 +39,50 @@ bool is_steep(double rise, double slope, double layer, double share) {
 }  // namespace
 
 SheetPairs::SheetPairs(const Complex& complex, const Elements& elements, std::span<const Index> sheet,
-                       std::span<const std::uint8_t> known, const Threads& threads)
+                       std::span<const std::uint8_t> known, std::size_t block)
     : complex_(complex), elements_(elements) {
   divide(sheet, known);
+  number_blocks(block);
   list_pairs(sheet.size());
-  if (too_many_) return;
+  if (!too_many_) list_batches();
+}
+
+void SheetPairs::number_blocks(std::size_t block) {
+  std::size_t facets = 0;
+  for (Part& part : parts_) {
+    part.block = facets / block;
+    facets += part.facets.size();
+  }
+  if (facets > 2 * block) return;  // then two blocks, which would be prepared together anyway, are one
+  for (Part& part : parts_) part.block = 0;
+}
+
+void SheetPairs::list_batches() {
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const auto [p, q] = pairs_[k];
+    const std::array<std::size_t, 2> blocks{parts_[p].block, parts_[q].block};
+    if (batches_.empty() || batches_.back().blocks != blocks) batches_.push_back({k, k, blocks});
+    batches_.back().last = k + 1;
+  }
+}
+
+void SheetPairs::prepare(const Batch& batch, const Threads& threads) {
+  const auto is_asked = [&](const Part& part) {
+    return std::find(batch.blocks.begin(), batch.blocks.end(), part.block) != batch.blocks.end();
+  };
+  for (Part& part : parts_)
+    if (part.is_prepared && !is_asked(part)) forget(part);
   parallel_ranges(threads, parts_.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) measure(parts_[p]);
+    for (std::size_t p = first; p < last; ++p)
+      if (!parts_[p].is_prepared && is_asked(parts_[p])) measure(parts_[p]);
   });
+}
+
+void SheetPairs::forget(Part& part) {
+  part.is_prepared = false;
+  part.tree = {};
+  release(part.corners);
+  release(part.vertices);
 }
 
 void SheetPairs::list_pairs(std::size_t most) {
@@ -67,7 +104,12 @@ void SheetPairs::list_pairs(std::size_t most) {
         return !too_many_;
       },
       [](Index, Index) { return false; }, [](double) {});
-  std::sort(pairs_.begin(), pairs_.end());
+  std::sort(pairs_.begin(), pairs_.end(), [&](const auto& a, const auto& b) {
+    const auto blocks = [&](const std::array<Index, 2>& pair) {
+      return std::pair(parts_[pair[0]].block, parts_[pair[1]].block);
+    };
+    return std::pair(blocks(a), a) < std::pair(blocks(b), b);
+  });
 }
 
 /// In the frame of a box round all.
@@ -127,7 +169,10 @@ bool SheetPairs::is_round_origin(const Triangle& facet) const {
 }
 
 void SheetPairs::measure(Part& part) const {
+  part.is_prepared = true;
+  part.most = part.most_share = 0;
   std::vector<Box> boxes;
+  boxes.reserve(part.facets.size());
   double largest = 0, least = kInfinity;
   for (const Index e : part.facets) {
     const auto at = [&](std::size_t i) -> const Point& {
@@ -142,6 +187,8 @@ void SheetPairs::measure(Part& part) const {
     part.normal = normal;
   }
   part.tree = AabbTree(boxes);
+  part.corners.reserve(part.facets.size());
+  part.vertices.reserve(part.facets.size());
   for (const AabbTree::Item& item : part.tree.items(0)) {
     const Triangle& corners = elements_.all[part.facets[item.id]].vertex;
     part.corners.push_back(

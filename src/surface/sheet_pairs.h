@@ -42,25 +42,38 @@ class SheetPairs {
  public:
   /// `sheet`: for each element the number of its sheet, or `no_index`. `known`: for each element, whether it
   /// fits together with all others marked so; empty if nothing is known.
+  /// At most about twice `block` facets are prepared at once.
   SheetPairs(const Complex& complex, const Elements& elements, std::span<const Index> sheet,
-             std::span<const std::uint8_t> known, const Threads& threads);
+             std::span<const std::uint8_t> known, std::size_t block = kBlock);
 
-  /// Whether more sheets are near each other than there are elements. Then
-  /// nothing is prepared.
+  /// Whether more sheets are near each other than there are elements.
   [[nodiscard]] bool are_too_many() const { return too_many_; }
   /// Pairs of parts of different sheets that boxes and triangles round them do not separate, except for parts
   /// that are wholly known.
   [[nodiscard]] const std::vector<std::array<Index, 2>>& all() const { return pairs_; }
 
+  /// Pairs `first` to `last` - 1 of all, whose parts are of two blocks.
+  struct Batch {
+    std::size_t first, last;
+    std::array<std::size_t, 2> blocks;
+  };
+  [[nodiscard]] const std::vector<Batch>& batches() const { return batches_; }
+  /// Prepares the parts of these pairs, and no others: what a search needs takes ten times the memory of a
+  /// facet.
+  void prepare(const Batch& batch, const Threads& threads);
+
   /// Visits pairs of facets of two parts, as indices of Elements::all, that may meet in more than a common
-  /// vertex, until `visit` returns false.
+  /// vertex, until `visit` returns false. The parts must be prepared.
   using Visit = std::function<bool(Index i, Index j)>;
   bool for_each(const std::array<Index, 2>& parts, const Visit& visit) const;
 
  private:
+  static constexpr std::size_t kBlock = 1'000'000;  // facets
+
   struct Part {
     Index sheet = 0;
-    bool is_round_origin = false, is_known = false;
+    bool is_round_origin = false, is_known = false, is_prepared = false;
+    std::size_t block = 0;
     std::vector<Index> facets;
     Box box{};
     AabbTree tree;                              // of the facets' boxes
@@ -104,9 +117,12 @@ class SheetPairs {
 
   void divide(std::span<const Index> sheet, std::span<const std::uint8_t> known);
   [[nodiscard]] bool is_round_origin(const Triangle& facet) const;
+  void number_blocks(std::size_t block);
   void list_pairs(std::size_t most);
+  void list_batches();
   [[nodiscard]] std::vector<Round> rounds(const Box& all) const;
   void measure(Part& part) const;
+  static void forget(Part& part);
   [[nodiscard]] static bool is_beyond(const Box& box, const Part& plane);
   [[nodiscard]] static Touching touching(const Part& part, const Part& plane, const Box& box);
   [[nodiscard]] static bool find_near(const Part& part, std::size_t item, const Part& plane, Near& near);
@@ -117,6 +133,7 @@ class SheetPairs {
   const Elements& elements_;
   std::vector<Part> parts_;
   std::vector<std::array<Index, 2>> pairs_;
+  std::vector<Batch> batches_;
   bool too_many_ = false;
 };
 

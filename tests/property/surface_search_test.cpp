@@ -296,15 +296,19 @@ Surface crossing_sheets(Random& random, std::vector<Index>& sheet) {
 }
 
 /// The pairs that SheetPairs visits, each once and of two sheets.
-Pairs pairs_of(const Complex& complex, const Elements& elements, const std::vector<Index>& sheet) {
-  const SheetPairs sheets(complex, elements, sheet, {}, 1);
+Pairs pairs_of(const Complex& complex, const Elements& elements, const std::vector<Index>& sheet,
+               std::size_t block = 1'000'000) {
+  SheetPairs sheets(complex, elements, sheet, {}, block);
   Pairs found;
-  for (const auto& parts : sheets.all())
-    sheets.for_each(parts, [&](Index i, Index j) {
-      EXPECT_NE(sheet[i], sheet[j]);
-      EXPECT_TRUE(found.insert({std::min(i, j), std::max(i, j)}).second) << "visited twice";
-      return true;
-    });
+  for (const SheetPairs::Batch& batch : sheets.batches()) {
+    sheets.prepare(batch, 1);
+    for (std::size_t k = batch.first; k < batch.last; ++k)
+      sheets.for_each(sheets.all()[k], [&](Index i, Index j) {
+        EXPECT_NE(sheet[i], sheet[j]);
+        EXPECT_TRUE(found.insert({std::min(i, j), std::max(i, j)}).second) << "visited twice";
+        return true;
+      });
+  }
   return found;
 }
 
@@ -319,6 +323,7 @@ TEST(SheetPairs, LoseNoPairThatMeets) {
     const Elements elements = elements_of(complex);
     ASSERT_EQ(elements.all.size(), sheet.size());
     const Pairs found = pairs_of(complex, elements, sheet);
+    EXPECT_EQ(found, pairs_of(complex, elements, sheet, 5)) << "parts that are prepared in blocks";
     visited += found.size();
     for (const auto& [i, j] : all_pairs(complex, elements)) {
       const bool is_asked = sheet[i] != no_index && sheet[j] != no_index && sheet[i] != sheet[j];
@@ -354,7 +359,7 @@ TEST(SheetPairs, StripsSideBySideAreNoPairs) {
   }
   const Complex complex = s.view();
   const Elements elements = elements_of(complex);
-  const SheetPairs sheets(complex, elements, sheet, {}, 1);
+  const SheetPairs sheets(complex, elements, sheet, {});
   EXPECT_FALSE(sheets.are_too_many());
   EXPECT_TRUE(sheets.all().empty());
 }
@@ -380,7 +385,7 @@ TEST(SheetPairs, TrianglesThatFaceEachOtherAreNoPairs) {
   }
   const Complex complex = s.view();
   const Elements elements = elements_of(complex);
-  const SheetPairs sheets(complex, elements, sheet, {}, 1);
+  const SheetPairs sheets(complex, elements, sheet, {});
   EXPECT_TRUE(sheets.all().empty());
 }
 
