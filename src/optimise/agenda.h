@@ -82,8 +82,16 @@ class Agenda {
   /// All that were given up are tried again.
   template <typename IsCurrent>
   void try_all_again(IsCurrent&& is_current) {
+    try_again_from(0, is_current);
+  }
+  /// Those whose Q is no less than this.
+  template <typename IsCurrent>
+  void try_again_from(double least, IsCurrent&& is_current) {
     for (const WaitingElement& e : std::exchange(stuck_, {}))
-      if (is_current(e)) push(e);
+      if (e.quality < least)
+        stuck_.push_back(e);
+      else if (is_current(e))
+        push(e);
     worst_stuck_ = 0;
     round_ = failures_ = 0;
   }
@@ -106,15 +114,22 @@ class Agenda {
     stuck_.erase(stuck_.begin(), stuck_.begin() + count);
     worst_stuck_ = 0;
   }
-  /// Takes over what waits in another, and what was given up there.
-  void take_over(Agenda&& other) {
+  /// Takes over what waits in others, and what was given up there.
+  void take_over(std::vector<Agenda>&& others) {
     floor_ = flat_;
-    for (const std::vector<WaitingElement>& waiting : {std::exchange(heap_, {}), std::move(other.heap_)})
-      for (const WaitingElement& e : waiting) push(e);
-    std::move(other.below_.begin(), other.below_.end(), std::back_inserter(below_));
-    stuck_.insert(stuck_.end(), other.stuck_.begin(), other.stuck_.end());
-    worst_stuck_ = std::max(worst_stuck_, other.worst_stuck_);
-    failures_ += other.failures_;
+    std::vector<WaitingElement> own = std::exchange(heap_, {});
+    std::size_t waiting = own.size();
+    for (const Agenda& other : others) waiting += other.heap_.size();
+    heap_.reserve(waiting);
+    add(std::move(own));
+    for (Agenda& other : others) {
+      add(std::move(other.heap_));
+      std::move(other.below_.begin(), other.below_.end(), std::back_inserter(below_));
+      stuck_.insert(stuck_.end(), other.stuck_.begin(), other.stuck_.end());
+      worst_stuck_ = std::max(worst_stuck_, other.worst_stuck_);
+      failures_ += other.failures_;
+    }
+    std::make_heap(heap_.begin(), heap_.end());
   }
 
   /// Drops what waits, and gives flat elements one round more: what comes next is of one place. Returns the
@@ -135,6 +150,14 @@ class Agenda {
     Tet tet;
   };
 
+  // Leaves the heap without order.
+  void add(std::vector<WaitingElement> waiting) {
+    for (const WaitingElement& e : waiting)
+      if (e.quality >= floor_)
+        heap_.push_back(e);
+      else
+        below_.front().push_back({e.quality, e.tet});
+  }
   void put(const WaitingElement& e) {
     heap_.push_back(e);
     std::push_heap(heap_.begin(), heap_.end());

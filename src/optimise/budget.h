@@ -14,10 +14,9 @@ class Budget {
   /// For a mesh of so many tetrahedra, or for so many of a mesh of `all`.
   explicit Budget(std::size_t tets) : Budget(tets, tets) {}
   Budget(std::size_t tets, std::size_t all)
-      : most_(std::min(tuning::kMostWork, proportional(tets))),
-        usual_(
-            std::min(proportional(tets) / tuning::kUsualShare,
-                     tuning::kMostUsual / std::max<std::size_t>(1, all / std::max<std::size_t>(1, tets)))) {}
+      : parts_(std::max<std::size_t>(1, all / std::max<std::size_t>(1, tets))),
+        most_(std::min(tuning::kMostWork, proportional(tets))),
+        usual_(std::min(proportional(tets) / tuning::kUsualShare, tuning::kMostUsual / parts_)) {}
 
   void spend(std::size_t work) { spent_ += work; }
   void note_gain() { at_gain_ = spent_; }
@@ -36,7 +35,7 @@ class Budget {
 
   /// For another search of the same mesh.
   void begin_again() {
-    usual_ = std::min(usual_, tuning::kMostUsualAgain);
+    usual_ = std::min(usual_, tuning::kMostUsualAgain / parts_);
     spent_ = at_gain_ = 0;
   }
   /// From now on so much is left, for all elements alike.
@@ -53,6 +52,7 @@ class Budget {
     return tuning::kLeastWork + tuning::kWorkPerTet * tets;
   }
 
+  std::size_t parts_;         // like this one, in the mesh
   std::size_t most_, usual_;  // for elements worth a point, and for the rest
   std::size_t spent_ = 0, at_gain_ = 0;
   bool is_fixed_ = false;

@@ -59,6 +59,16 @@ void ElementSearch::work_off(Ways::Points points, const std::function<bool()>& m
   }
 }
 
+std::size_t ElementSearch::work_off_null(const std::function<bool()>& may_go_on) {
+  const std::vector<WaitingElement>& stuck = agenda_.stuck();
+  const auto is_null = [&](const WaitingElement& e) { return e.quality >= bad_from_.null && is_current(e); };
+  if (std::none_of(stuck.begin(), stuck.end(), is_null)) return 0;
+  agenda_.try_again_from(bad_from_.null, [this](const WaitingElement& e) { return is_current(e); });
+  budget_.begin_again();
+  work_off(Ways::Points::for_null, may_go_on);
+  return budget_.spent();
+}
+
 void ElementSearch::improve(const WaitingElement& e, Ways::Points points) {
   monitor_.poll(Stage::optimise, budget_.fraction());
   std::vector<Tet> changed;

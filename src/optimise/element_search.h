@@ -26,6 +26,9 @@ class ElementSearch {
   /// Runs until the agenda is empty or the budget spent, or while `may_go_on` is true. If points may be added
   /// later, the other ways are tried less hard.
   void work_off(Ways::Points points, const std::function<bool()>& may_go_on = {});
+  /// The null elements that were given up, if any, are tried again, with points, and what else waits gets a
+  /// little work. Returns the work done; the budget begins anew.
+  std::size_t work_off_null(const std::function<bool()>& may_go_on = {});
   [[nodiscard]] bool is_current(const WaitingElement& e);
   void poll() { monitor_.poll(Stage::optimise, budget_.fraction()); }
 

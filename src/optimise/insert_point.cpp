@@ -30,7 +30,16 @@ double worst_from(const TetMesh& mesh, const Point& p, const Cavity& cavity) {
   return worst;
 }
 
-Vertex insert_into(TetMesh& mesh, Cavity cavity, double most, std::vector<Tet>& created) {
+Vertex vertex_at(TetMesh& mesh, const Point& place, std::vector<Vertex>* spare) {
+  if (spare == nullptr) return MeshEditor(mesh).add_vertex(place);
+  const Vertex p = spare->back();
+  spare->pop_back();
+  MeshEditor(mesh).move_vertex(p, place);
+  return p;
+}
+
+Vertex insert_into(TetMesh& mesh, Cavity cavity, double most, std::vector<Vertex>* spare,
+                   std::vector<Tet>& created) {
   Point middle{};
   const auto origin = [&](const Cavity& grown) -> exact::PointRef {
     middle = middle_of(mesh, grown);
@@ -45,23 +54,24 @@ Vertex insert_into(TetMesh& mesh, Cavity cavity, double most, std::vector<Tet>& 
   };
   const auto place = grow_until_placed(mesh, cavity, tuning::kMostInsertSteps, origin, place_in);
   if (!place) return kNone;
-  const Vertex p = MeshEditor(mesh).add_vertex(*place);
+  const Vertex p = vertex_at(mesh, *place, spare);
   cone(mesh, cavity, p, &created);
   return p;
 }
 
 }  // namespace
 
-Vertex insert_point(TetMesh& mesh, Tet t, Vertex first_free, double most, std::vector<Tet>& created) {
+Vertex insert_point(TetMesh& mesh, Tet t, Vertex first_free, double most, std::vector<Vertex>* spare,
+                    std::vector<Tet>& created) {
   for (const int edge : wide_edges(mesh, t)) {
     const auto [a, b] = ends_of_edge(mesh.corners(t), edge);
     EdgeShell shell;
     if (!gather_shell(mesh, t, a, b, shell)) continue;
-    const Vertex p = insert_into(mesh, Cavity(mesh, shell.tets, first_free), most, created);
+    const Vertex p = insert_into(mesh, Cavity(mesh, shell.tets, first_free), most, spare, created);
     if (p != kNone) return p;
   }
   const std::array<Tet, 1> alone{t};
-  return insert_into(mesh, Cavity(mesh, alone, first_free), most, created);
+  return insert_into(mesh, Cavity(mesh, alone, first_free), most, spare, created);
 }
 
 }  // namespace holdfast

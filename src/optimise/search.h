@@ -31,6 +31,7 @@ class Search {
   }
   void push(std::span<const Tet> tets) { elements_.push(tets); }
   void work_off(Ways::Points points) { elements_.work_off(points); }
+  std::size_t work_off_null() { return elements_.work_off_null(); }
 
   /// Part of the search that may be undone.
   class Trial {

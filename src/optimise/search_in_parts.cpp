@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "mesh/editor.h"
 #include "mesh/in_place_parts.h"
 #include "mesh/measure.h"
 #include "numbers/sorted.h"
@@ -31,10 +32,12 @@ class SearchInParts {
     const Cuts cuts = cuts_by_work();
     if (cuts.part_count() == 1 || !work_off_apart(cuts)) return false;
     work_off_near_cuts();
+    std::vector<Agenda> agendas;
     for (Done& done : done_) {
-      search_.agenda().take_over(std::move(*done.agenda));
+      agendas.push_back(std::move(*done.agenda));
       search_.budget().spend(done.spent);
     }
+    search_.agenda().take_over(std::move(agendas));
     try_worst_again();
     return true;
   }
@@ -45,12 +48,15 @@ class SearchInParts {
     std::optional<Agenda> agenda;
     OptimiseStats stats;
     std::size_t spent = 0;
-    std::vector<Tet> near;  // bad ones at vertices of mixed tetrahedra
+    std::vector<Vertex> points;  // that were added
+    std::vector<Tet> near;       // bad ones at vertices of mixed tetrahedra
   };
   struct Lists {
     std::vector<std::vector<Tet>> of_part;  // tetrahedra to be improved
     std::vector<std::size_t> tets;          // number of all tetrahedra of a part
   };
+  // Vertices for the points of a part.
+  using Spare = std::vector<Vertex>;
 
   [[nodiscard]] Cuts cuts_by_work() const {
     std::vector<Cuts::Sample> samples;
@@ -74,13 +80,46 @@ class SearchInParts {
     return part_of;
   }
 
+  // If points may be added: one for each null element of a part, since each removes one at least.
+  [[nodiscard]] std::vector<Spare> add_spare_vertices(const std::vector<InPlaceParts::PartNumber>& part_of,
+                                                      std::size_t count) {
+    std::vector<Spare> spare(count);
+    if (points_ != Ways::Points::later) return spare;
+    for (const Tet t : tets_)
+      if (search_.qualities().of(t) >= search_.bad_from().null)
+        spare[part_of[mesh_.corner(t, 0)]].push_back(MeshEditor(mesh_).add_vertex(Point{}));
+    return spare;
+  }
+
+  [[nodiscard]] std::size_t spare_slots(const std::vector<Spare>& spare) const {
+    std::size_t most_points = 0;
+    for (const Spare& own : spare) most_points = std::max(most_points, own.size());
+    return tuning::kSpareSlots + tets_.size() / (spare.size() * tuning::kTetsASpareSlot) +
+           tuning::kSlotsAPoint * most_points;
+  }
+
+  // The last vertices of the mesh, as far as they are not used.
+  void drop(const std::vector<Spare>& spare) {
+    std::vector<Vertex> left;
+    for (const Spare& own : spare) left.insert(left.end(), own.begin(), own.end());
+    std::sort(left.begin(), left.end());
+    for (; !left.empty() && left.back() + 1 == mesh_.vertex_count(); left.pop_back())
+      MeshEditor(mesh_).remove_last_vertex();
+  }
+
   // Works on each part by itself, including what is near the cuts as far as possible.
   bool work_off_apart(const Cuts& cuts) {
     const std::size_t count = cuts.part_count();
-    const InPlaceParts parts(mesh_, tets_, parts_of_vertices(cuts), count,
-                             tuning::kSpareSlots + tets_.size() / (count * tuning::kTetsASpareSlot),
-                             threads_);
+    const std::vector<InPlaceParts::PartNumber> part_of = parts_of_vertices(cuts);
+    std::vector<Spare> spare = add_spare_vertices(part_of, count);
+    const bool is_worth_it = work_off_apart(part_of, spare);
+    drop(spare);
+    return is_worth_it;
+  }
 
+  bool work_off_apart(const std::vector<InPlaceParts::PartNumber>& part_of, std::vector<Spare>& spare) {
+    const std::size_t count = spare.size();
+    const InPlaceParts parts(mesh_, tets_, part_of, count, spare_slots(spare), threads_);
     if (static_cast<double>(parts.mixed().size()) > tuning::kMostMixed * static_cast<double>(tets_.size()))
       return false;
     search_.qualities().make_room();
@@ -88,7 +127,7 @@ class SearchInParts {
 
     done_.resize(count);
     parallel_monitored(threads_, count, monitor_, {0, 1},
-                       [&](std::size_t k, Monitor& own) { work_off_part(parts, lists, k, own); });
+                       [&](std::size_t k, Monitor& own) { work_off_part(parts, lists, k, spare[k], own); });
 
     near_ = parts.mixed();
     return true;
@@ -114,15 +153,21 @@ class SearchInParts {
   }
 
   void work_off_part(const InPlaceParts& parts, const std::map<std::size_t, Lists>& lists, std::size_t part,
-                     Monitor& monitor) {
+                     Spare& spare, Monitor& monitor) {
     std::size_t tets = 0;
     for (const auto& [first, list] : lists) tets += list.tets[part];
     ElementSearch elements(mesh_, search_.qualities(), search_.first_free(), search_.target(), seed_,
                            Budget(tets, tets_.size()), monitor);
     elements.ways().hold(parts.at_mixed());
     for (const auto& [first, list] : lists) elements.push(list.of_part[part]);
-    elements.work_off(points_, [&] { return parts.spare(part) >= tuning::kSpareSlots; });
+    const auto has_slots = [&] { return parts.spare(part) >= tuning::kSpareSlots; };
+    elements.work_off(points_, has_slots);
     Done& done = done_[part];
+    done.spent = elements.budget().spent();
+    if (!spare.empty()) {
+      elements.ways().take_points_from(spare);
+      done.spent += elements.work_off_null(has_slots);
+    }
     elements.agenda().keep([&](Tet t) {
       if (!mesh_.alive(t)) return false;
       const TetMesh::Corners& c = mesh_.corners(t);
@@ -132,12 +177,13 @@ class SearchInParts {
     });
     done.agenda = std::move(elements.agenda());
     done.stats = elements.stats();
-    done.spent = elements.budget().spent();
+    done.points = std::move(elements.points());
   }
 
   void work_off_near_cuts() {
     for (const Done& done : done_) {
       search_.stats() += done.stats;
+      search_.add_points(done.points);
       near_.insert(near_.end(), done.near.begin(), done.near.end());
     }
     sort_unique(near_);
@@ -145,7 +191,8 @@ class SearchInParts {
     search_.budget() = Budget(near_.size(), tets_.size());
     search_.push(near_);
     search_.work_off(points_);
-    const std::size_t spent = search_.budget().spent();
+    std::size_t spent = search_.budget().spent();
+    if (points_ == Ways::Points::later) spent += search_.work_off_null();
     search_.budget() = whole;
     search_.budget().spend(spent);
   }

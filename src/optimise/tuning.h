@@ -50,6 +50,7 @@ inline constexpr std::size_t kWorstTriedAgain = 64, kWorkOnWorst = 3000;  ///< w
 inline constexpr double kMostMixed = 0.25;           ///< share of tetrahedra between parts: above it no cut
 inline constexpr std::size_t kSpareSlots = 2048;     ///< that the ways for an element may use
 inline constexpr std::size_t kTetsASpareSlot = 128;  ///< one more slot for this many tetrahedra of a part
+inline constexpr std::size_t kSlotsAPoint = 16;      ///< and so many for each point that it may get
 
 // Patience, in unsuccessful attempts.
 inline constexpr int kRounds = 3;         ///< over flat elements: each opens ways for the next

@@ -82,10 +82,17 @@ bool Ways::is_worth_reconnecting(const Attempt& attempt) const {
 
 // A point that would come next is worth some milliseconds, a few times.
 bool Ways::reconnect_patiently(Attempt& attempt) {
-  if (attempt.points != Points::now || attempt.element.quality < bad_from_.hopeless) return false;
+  if (!may_get_a_point(attempt)) return false;
   if (++patient_ > tuning::kMostPatient) return false;
   attempt.budget.spend(tuning::kPatientWork);
   return reconnect(mesh_, attempt.element.tet, first_free_, bad_from_, true, random_, attempt.changed);
+}
+
+bool Ways::may_get_a_point(const Attempt& attempt) const {
+  if (spare_ != nullptr && spare_->empty()) return false;
+  return attempt.points == Points::now        ? attempt.element.quality >= bad_from_.hopeless
+         : attempt.points == Points::for_null ? attempt.element.quality >= bad_from_.null
+                                              : false;
 }
 
 // As long as a worse one stays, a point would not better the mesh's worst; but null elements are of no use
@@ -96,10 +103,10 @@ bool Ways::is_worth_a_point(const Attempt& attempt) const {
 }
 
 bool Ways::insert(Attempt& attempt) {
-  if (attempt.points != Points::now || !is_worth_a_point(attempt)) return false;
+  if (!may_get_a_point(attempt) || !is_worth_a_point(attempt)) return false;
   attempt.budget.spend(tuning::kInsertWork);
   const double most = attempt.element.quality < bad_from_.null ? bad_from_.hopeless : bad_from_.null;
-  attempt.added = insert_point(mesh_, attempt.element.tet, first_free_, most, attempt.changed);
+  attempt.added = insert_point(mesh_, attempt.element.tet, first_free_, most, spare_, attempt.changed);
   if (attempt.added == kNone) return false;
   move(attempt.added, attempt.budget, attempt.changed);
   return true;

@@ -27,7 +27,9 @@ class Ways {
         flat_remover_(mesh),
         random_(seed) {}
 
-  enum class Points { none, later, now };  ///< whether an element may get a point
+  /// Whether elements may get points: none, when the search is repeated, the null ones now, or all that are
+  /// worth one.
+  enum class Points { none, later, for_null, now };
   /// The inputs of the ways besides the element, and their results.
   struct Attempt {
     const WaitingElement& element;
@@ -48,6 +50,9 @@ class Ways {
   /// These vertices do not move, and their surroundings must not be read while threads change parts of the
   /// mesh (mesh/in_place_parts.h).
   void hold(const std::vector<std::uint8_t>& held) { held_ = &held; }
+  /// Points are put at these vertices, which are in no tetrahedron, as long as there are any: threads that
+  /// change parts of the mesh cannot add vertices.
+  void take_points_from(std::vector<Vertex>& spare) { spare_ = &spare; }
   /// The vertices from here on may be moved and removed.
   [[nodiscard]] Vertex first_free() const { return first_free_; }
 
@@ -59,12 +64,14 @@ class Ways {
   bool reconnect_round(Attempt& attempt);
   bool reconnect_patiently(Attempt& attempt);
   bool insert(Attempt& attempt);
+  [[nodiscard]] bool may_get_a_point(const Attempt& attempt) const;
   [[nodiscard]] bool is_worth_a_point(const Attempt& attempt) const;
   [[nodiscard]] bool is_worth_reconnecting(const Attempt& attempt) const;
 
   TetMesh& mesh_;
   const Vertex first_free_;
   const std::vector<std::uint8_t>* held_ = nullptr;
+  std::vector<Vertex>* spare_ = nullptr;
   const BadFrom& bad_from_;
   Exchanger exchanger_;
   FlatRemover flat_remover_;

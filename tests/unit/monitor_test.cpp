@@ -8,13 +8,13 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
-#include <numbers>
 #include <string>
 #include <thread>
 
 #include "holdfast/memory.h"
 #include "mesh/memory.h"
 #include "small_surfaces.h"
+#include "torus.h"
 
 namespace holdfast {
 namespace {
@@ -23,21 +23,6 @@ double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-Surface torus(Index around, Index across) {
-  Surface surface;
-  for (Index i = 0; i < around; ++i)
-    for (Index j = 0; j < across; ++j) {
-      const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
-      const double r = 1 + 0.4 * std::cos(b);
-      surface.vertices.push_back({r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)});
-      const Index p = i * across + j, q = (i + 1) % around * across + j;
-      const Index s = i * across + (j + 1) % across, r2 = (i + 1) % around * across + (j + 1) % across;
-      surface.facets.push_back({p, q, r2});
-      surface.facets.push_back({p, r2, s});
-    }
-  return surface;
 }
 
 // The caller's own function may be slow, too.

@@ -264,8 +264,11 @@ TEST(InsertPoint, OfThreeFacetsThatMakeACap) {
   ASSERT_GT(quality_of(mesh, mesh.corners(cap)), 1e10);
   const exact::Dyadic volume = volume_of(mesh);
   std::vector<Tet> created;
-  const Vertex p = insert_point(mesh, cap, first_free, 1000, created);
-  ASSERT_NE(p, kNone);
+  std::vector<Vertex> spare;
+  for (int k = 0; k < 2; ++k) spare.push_back(MeshEditor(mesh).add_vertex(Point{}));
+  const Vertex p = insert_point(mesh, cap, first_free, 1000, &spare, created);
+  EXPECT_EQ(p + 1, mesh.vertex_count());
+  EXPECT_EQ(spare, (std::vector{p - 1}));
   EXPECT_LT(badness_of(mesh, created, {kInfinity}).worst, 1000);
   EXPECT_LT(worst_quality(mesh), 1e4);
   EXPECT_EQ(facet_faces(mesh).size(), 3u);
