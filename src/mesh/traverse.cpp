@@ -1,6 +1,7 @@
 #include "mesh/traverse.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "numbers/random.h"
 #include "numbers/sorted.h"
@@ -36,6 +37,20 @@ Tet visit_ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out, Stop stop) {
 
 void ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out) {
   visit_ball(mesh, v, out, [](Tet) { return false; });
+}
+
+void ball_without_marks(const TetMesh& mesh, Vertex v, std::vector<Tet>& out) {
+  const Tet start = mesh.incident(v);
+  if (start == kNone) return;
+  std::unordered_set<Tet> seen{start};
+  const std::size_t first = out.size();
+  out.push_back(start);
+  for (std::size_t k = first; k < out.size(); ++k)
+    for (int i = 0; i < 4; ++i) {
+      if (mesh.corner(out[k], i) == v) continue;
+      const Tet next = tet_of(mesh.neighbour(out[k], i));
+      if (seen.insert(next).second) out.push_back(next);
+    }
 }
 
 std::vector<Vertex> link_vertices(TetMesh& mesh, Vertex v) {

@@ -11,6 +11,9 @@ namespace holdfast {
 /// Tetrahedra at v (ghosts included), appended to `out`. The mesh's visited bits serve as scratch.
 void ball(TetMesh& mesh, Vertex v, std::vector<Tet>& out);
 
+/// The same without the visited bits, for threads that change parts of the mesh (in_place_parts.h). Slower.
+void ball_without_marks(const TetMesh& mesh, Vertex v, std::vector<Tet>& out);
+
 /// The vertices of v's link in ascending order, without the ghost.
 [[nodiscard]] std::vector<Vertex> link_vertices(TetMesh& mesh, Vertex v);
 

@@ -5,6 +5,7 @@
 
 #include "mesh/editor.h"
 #include "mesh/quality_below.h"
+#include "mesh/traverse.h"
 #include "optimise/badness.h"
 #include "optimise/nothing_bad.h"
 
@@ -52,19 +53,13 @@ std::optional<ShellSpoke> FlatRemover::next_blocked(Level& level) const {
 }
 
 // Like holdfast::find_edge, but without marks: threads that change parts of the mesh must not set them
-// (mesh/in_place_parts.h). It is seldom called, and balls are small.
+// (mesh/in_place_parts.h).
 Tet FlatRemover::find_edge(Vertex a, Vertex b) {
-  round_.assign(1, mesh_.incident(a));
-  for (std::size_t k = 0; k < round_.size(); ++k) {
-    const Tet t = round_[k];
-    if (mesh_.index_of(t, b) >= 0) return t;
-    for (int i = 0; i < 4; ++i) {
-      if (mesh_.corner(t, i) == a) continue;
-      const Tet next = tet_of(mesh_.neighbour(t, i));
-      if (std::find(round_.begin(), round_.end(), next) == round_.end()) round_.push_back(next);
-    }
-  }
-  return kNone;
+  round_.clear();
+  ball_without_marks(mesh_, a, round_);
+  const auto at =
+      std::find_if(round_.begin(), round_.end(), [&](Tet t) { return mesh_.index_of(t, b) >= 0; });
+  return at != round_.end() ? *at : kNone;
 }
 
 bool FlatRemover::is_good(Vertex a, Vertex b, Vertex c, Vertex d) const {
