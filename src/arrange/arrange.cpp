@@ -362,10 +362,11 @@ Arrangement arrange(const Complex& complex, const Elements& elements, const Step
   tuning.threads = options.threads;
   const VisitPair visit = [&](Index i, Index j, const Contacts& contacts) {
     pairs.push_back({{i, j}, contacts.part});
-    return true;
+    return pairs.size() <= options.most_pairs;
   };
   for_each_offending_pair(
       complex, elements, visit, [&](double fraction) { step(0.3 * fraction); }, tuning, options.known);
+  if (pairs.size() > options.most_pairs) throw TooManyPoints(pairs.size());
   // An entity with a corner that is not finite is not an element; only the flaw of the corner reports it.
   const bool whole = std::all_of(elements.flaws.begin(), elements.flaws.end(), [](const Flaw& flaw) {
     return flaw.corners == 1 && flaw.kind != DefectKind::non_finite_coordinate;

@@ -63,6 +63,7 @@ struct ArrangeOptions {
   Threads threads = 1;
   Known known = {};                    ///< see surface/search.h
   std::size_t most_points = SIZE_MAX;  ///< new ones; more of them throw TooManyPoints
+  std::size_t most_pairs = SIZE_MAX;   ///< that do not fit; more of them throw TooManyPoints, too
   bool keeps_points = false;           ///< the exact new points are asked for
 
   /// A number of points that is too many even if each is counted several times.

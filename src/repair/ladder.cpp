@@ -314,12 +314,21 @@ void Ladder::stand(Attempt attempt) {
   trouble_ = std::move(attempt.trouble);
 }
 
+arrange::ArrangeOptions Ladder::at_most(std::size_t points) const {
+  arrange::ArrangeOptions options;
+  options.threads = threads_;
+  options.most_points = points;
+  if (is_plane_) options.most_pairs = most_pairs_in_plane(rounded_.state.facets.size());
+  return options;
+}
+
 std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
   arrange::Arrangement arrangement;
   if (proven_) proven_->tell(rounded_.state);
   try {
-    const bool keeps_points = report_.rounds == 0 && options_.exact;
-    arrangement = arrangement_of(rounded_.state, most_points, here(), threads_, keeps_points);
+    arrange::ArrangeOptions options = at_most(most_points);
+    options.keeps_points = report_.rounds == 0 && options_.exact;
+    arrangement = arrangement_of(rounded_.state, here(), options);
   } catch (const arrange::TooManyPoints& many) {
     if (report_.rounds == 0 && !is_plane_) throw;
     too_many_ = many.count();
@@ -344,7 +353,7 @@ void Ladder::cut_if_better() {
   arrange::Arrangement arrangement;
   try {
     const std::size_t most = std::min(options_.most_points, 200 + 4 * trouble_.size());
-    arrangement = arrangement_of(rounded_.state, most, here(), threads_);
+    arrangement = arrangement_of(rounded_.state, here(), at_most(most));
   } catch (const arrange::TooManyPoints&) {
     return;
   }

@@ -162,6 +162,8 @@ class Ladder {
   /// than `most_points`; the state is then unchanged. `before`, if given, is the same state, and learns which
   /// of its facets fit together.
   std::optional<std::size_t> cut(std::size_t most_points, State* before = nullptr);
+  /// For an arrangement with at most this many new points.
+  [[nodiscard]] arrange::ArrangeOptions at_most(std::size_t points) const;
 
   /// Cuts if that takes few new points. When little is in trouble, many new points are a sign of nearly
   /// coincident facets; the next plan then joins more instead.

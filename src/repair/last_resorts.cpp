@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "repair/bounds.h"
 #include "repair/covered.h"
@@ -12,6 +13,20 @@
 #include "repair/weld.h"
 
 namespace holdfast::repairing {
+namespace {
+
+/// Distances, in last bits, within which vertices are welded. Up to the user's tolerance a few are enough: it
+/// says what may become one.
+std::vector<double> welded_last_bits(double tolerance) {
+  std::vector<double> levels;
+  for (const double part : kPartsOfTolerance)
+    if (part * tolerance >= kWeldedLastBits.front()) levels.push_back(part * tolerance);
+  for (const double last_bits : kWeldedLastBits)
+    if (last_bits > tolerance) levels.push_back(last_bits);
+  return levels;
+}
+
+}  // namespace
 
 bool Ladder::join_all() {
   if (options_.join > 0) return false;
@@ -36,8 +51,9 @@ bool Ladder::join_all() {
 void Ladder::weld_all() {
   std::optional<Ladder> welding;
   std::size_t least_points = new_points_[0] - new_points_[0] / 8;
-  for (const double last_bits : kWeldedLastBits) {
-    const double gap = last_bits * last_bit(given_.vertices);
+  const double bit = last_bit(given_.vertices);
+  for (const double last_bits : welded_last_bits(options_.weld / bit)) {
+    const double gap = last_bits * bit;
     State state = given_;
     const double moved = weld(state, gap, here());
     if (moved == 0) continue;

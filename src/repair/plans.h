@@ -30,6 +30,10 @@ constexpr std::size_t most_in_plane(std::size_t facets) { return 64 + 2 * facets
 /// cross each other along a line have far more, and take long.
 constexpr std::size_t most_points_in_plane(std::size_t facets) { return 20'000 + 32 * facets; }
 
+/// Largest number of pairs of so many facets in a plane that do not fit. Where facets lie in layers upon each
+/// other, pairs are hundreds of times as many as points, and only these take long.
+constexpr std::size_t most_pairs_in_plane(std::size_t facets) { return 1'000'000 + 8 * facets; }
+
 /// With more new points than this, a plane is given up if most of its facets are in trouble after the first
 /// cut: the second cut would take long and have too many points.
 constexpr std::size_t many_points_in_plane(std::size_t facets) { return 64 + 32 * facets; }
@@ -43,6 +47,8 @@ inline constexpr std::array kWeldedPlans{Plan{0x1p3, true}, Plan{0x1p6, true}};
 inline constexpr std::array kJoinedLastBits{0x1p3, 0x1p6};
 inline constexpr std::array kWeldedLastBits{0x1p6,  0x1p8,  0x1p10, 0x1p12, 0x1p14, 0x1p16, 0x1p18,
                                             0x1p20, 0x1p22, 0x1p24, 0x1p26, 0x1p28, 0x1p30, 0x1p32};
+/// The same as shares of the tolerance that the user gave.
+inline constexpr std::array kPartsOfTolerance{0x1p-12, 0x1p-9, 0x1p-6, 0x1p-3, 1.0};
 
 /// The same for duplicated vertices in trouble: the least distance, and the largest as a share of
 /// the extent.

@@ -109,17 +109,12 @@ State state_of(const Complex& complex) {
   return state;
 }
 
-arrange::Arrangement arrangement_of(const State& state, std::size_t most_points, const Step& step,
-                                    const Threads& threads, bool keeps_points) {
+arrange::Arrangement arrangement_of(const State& state, const Step& step, arrange::ArrangeOptions options) {
   const Complex complex = state.complex();
-  const Elements elements = elements_of(complex, threads);
+  const Elements elements = elements_of(complex, options.threads);
   const KnownElements known(state, elements);
-  arrange::ArrangeOptions arranging;
-  arranging.threads = threads;
-  arranging.known = known.known();
-  arranging.most_points = most_points;
-  arranging.keeps_points = keeps_points;
-  return arrange::arrange(complex, elements, step, arranging);
+  options.known = known.known();
+  return arrange::arrange(complex, elements, step, options);
 }
 
 State arranged(const State& before, arrange::Arrangement arrangement) {

@@ -68,11 +68,9 @@ std::vector<Index> drop_unused(State& state);
 /// The state of the unchanged input.
 [[nodiscard]] State state_of(const Complex& complex);
 
-/// The exact arrangement of a state, if it has at most this many new points. `keeps_points`: see
-/// ArrangeOptions.
-[[nodiscard]] arrange::Arrangement arrangement_of(const State& state, std::size_t most_points,
-                                                  const Step& step, const Threads& threads,
-                                                  bool keeps_points = false);
+/// The exact arrangement of a state. `options` say how, but for what the state knows.
+[[nodiscard]] arrange::Arrangement arrangement_of(const State& state, const Step& step,
+                                                  arrange::ArrangeOptions options);
 
 /// The state after an arrangement. Unused vertices are removed, except those of the input. New points stand
 /// at their nearest doubles. An arrangement is a complex, so facets whose corners are not rounded fit

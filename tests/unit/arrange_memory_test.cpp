@@ -59,7 +59,7 @@ TEST(ArrangeMemory, IsBoundedByTheNumberOfTriangles) {
   const std::size_t before = in_use;
   peak = before;
   const repairing::State given = repairing::state_of(surface.view());
-  repairing::State state = repairing::arranged(given, repairing::arrangement_of(given, SIZE_MAX, step, 1));
+  repairing::State state = repairing::arranged(given, repairing::arrangement_of(given, step, {}));
   const auto for_each_facet = [&] { return (peak - before) / state.facets.size(); };
   EXPECT_GT(state.facets.size(), 50'000u);
   EXPECT_LT(for_each_facet(), 120u) << "bytes, of the arrangement";

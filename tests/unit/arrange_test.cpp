@@ -20,5 +20,23 @@ TEST(Arrange, TellsWhichFacetsFitted) {
   EXPECT_EQ(arrangement.fitted, (std::vector<std::uint8_t>{0, 0, 1, 0}));
 }
 
+// Ten times the same triangle: 45 pairs, and no point.
+TEST(Arrange, EndsWithTooManyPairs) {
+  const std::vector<Point> vertices{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+  const std::vector<Triangle> facets(10, {0, 1, 2});
+  const Complex complex{vertices, facets, {}, {}, {}};
+  const Elements elements = elements_of(complex);
+  ArrangeOptions options;
+  options.most_pairs = 45;
+  EXPECT_EQ(arrange(
+                complex, elements, [](double) {}, options)
+                .pairs,
+            45u);
+  options.most_pairs = 44;
+  EXPECT_THROW((void)arrange(
+                   complex, elements, [](double) {}, options),
+               TooManyPoints);
+}
+
 }  // namespace
 }  // namespace holdfast::arrange
