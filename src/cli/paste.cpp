@@ -14,6 +14,7 @@
 #include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "holdfast/seeds.h"
 #include "holdfast/surface_io.h"
 #include "limits.h"
 #include "name_options.h"
@@ -59,8 +60,8 @@ Json options_of(const PasteArguments& arguments) {
           {"memory_limit", arguments.limits.memory_limit.value_or(0)}};
 }
 
-/// A surface has no place for the regions of its parts: a mesh of the file numbers them by the order of the
-/// triangles, so that names of several would come to other regions.
+/// Without seeds, a surface has no place for the regions of its parts: a mesh of the file numbers them by the
+/// order of the triangles, so that names of several would come to other regions.
 std::size_t leave_out_region_names(PasteResult& result) {
   std::set<int> ids;
   for (const PastedPart& part : result.parts) {
@@ -69,6 +70,18 @@ std::size_t leave_out_region_names(PasteResult& result) {
   }
   if (ids.size() < 2) return 0;
   return std::exchange(result.surface.names.regions, {}).size();
+}
+
+/// Adds seeds of the parts' regions if the format holds them.
+bool add_seeds(const PasteArguments& arguments, const PasteOptions& options, const WriteOptions& writing,
+               PasteResult& result) {
+  if (!holds_seeds(arguments, writing)) return false;
+  Options meshing;
+  static_cast<Limits&>(meshing) = options;
+  meshing.threads = arguments.threads;
+  meshing.progress = [](const Progress& at) { return goes_on(at.fraction); };
+  result.surface = with_seeds(result, meshing);
+  return true;
 }
 
 /// Reports how the run ended and what the user can do; returns the exit code.
@@ -185,7 +198,8 @@ int paste_surfaces(const PasteArguments& arguments, const PasteOptions& options,
                                          : paste(parts, options, stems(arguments.surfaces));
   merge(result.surface.names, names_of(arguments.names));
   if (result.outcome == Outcome::done) {
-    const std::size_t left_out = leave_out_region_names(result);
+    const bool has_seeds = add_seeds(arguments, options, writing, result);
+    const std::size_t left_out = has_seeds ? 0 : leave_out_region_names(result);
     write_and_tell(arguments, result.surface, writing, arguments.quiet);
     if (!arguments.quiet) {
       if (left_out > 0)

@@ -31,6 +31,12 @@ void add_surface_format(CLI::App& command, SurfaceOutput& output) {
       ->option_text("FORMAT");
 }
 
+bool holds_seeds(const SurfaceOutput& output, const WriteOptions& options) {
+  Surface seeded;
+  seeded.holes.push_back({});
+  return not_held(output.output, seeded, options).empty();
+}
+
 void write_and_tell(const SurfaceOutput& output, const Surface& surface, const WriteOptions& options,
                     bool quiet) {
   write_surface(output.output, surface, options);

@@ -21,6 +21,9 @@ void add_account(CLI::App& command, SurfaceOutput& output);
 /// Adds --format.
 void add_surface_format(CLI::App& command, SurfaceOutput& output);
 
+/// Whether the format has a place for seeds.
+[[nodiscard]] bool holds_seeds(const SurfaceOutput& output, const WriteOptions& options);
+
 /// Writes the surface and, unless `quiet`, reports what its format does not hold. Throws FileError and
 /// Interrupted.
 void write_and_tell(const SurfaceOutput& output, const Surface& surface, const WriteOptions& options,

@@ -290,6 +290,27 @@ class PasteTest(CliTest):
             self.assertAlmostEqual(found[1] + found[2], 8, places=9)
             self.assertAlmostEqual(found[1], volume(parts[0]), delta=0.001)
 
+    def test_a_poly_has_seeds_of_the_parts_regions(self):
+        far = box((10, 0, 0), (11, 1, 1), 1)
+        wall = box((1, 2, 1), (2, 3, 2), 2)
+        wall = (wall[0] + far[0], wall[1] + [tuple(v + len(wall[0]) for v in t) for t in far[1]])
+        # Slabs and walls round a space in no part; the last file is of two pieces.
+        names = self.parts(box((0, 0, 0), (3, 3, 1), 2), box((0, 0, 2), (3, 3, 3), 3), box((0, 0, 1), (1, 3, 2), 1),
+                           box((2, 0, 1), (3, 3, 2), 2), box((1, 0, 1), (2, 1, 2), 3), wall)
+        said = self.run_program("paste", *names, "-o", "parts.poly").stderr
+        self.assertNotIn("numbers its regions anew", said)
+        lines = (self.folder / "parts.poly").read_text().splitlines()
+        self.assertEqual(lines[-8], "7")
+        self.assertEqual(sorted(int(line.split()[4]) for line in lines[-7:]), [1, 2, 3, 4, 5, 6, 6])
+        hole = [float(x) for x in lines[-9].split()[1:]]
+        self.assertEqual(lines[-10], "1")
+        self.assertTrue(all(1 < x < 2 for x in hole), hole)
+        points, _, tets, _, _ = self.mesh(["parts.poly"])
+        for region, size in volumes(points, tets).items():
+            self.assertAlmostEqual(size, {1: 9, 2: 9, 3: 3, 4: 3, 5: 1, 6: 2}[region], places=12)
+        self.run_program("paste", *names, "-o", "parts.off")  # which has no place for seeds, and needs none
+        self.run_program("paste", *names, "-o", "parts.poly", "--time-limit", "1e-9", expect=5)
+
     def test_three_parts_round_an_edge_cut_differently(self):
         parts = [as_float32(rotated(wedge(*w))) for w in ((0, 120, 1, 3), (120, 240, 1, 5), (240, 360, 1, 4))]
         self.require_pasted(parts, "--paste", interfaces={(1, 2): 1, (2, 3): 1, (1, 3): 1}, places=6)
