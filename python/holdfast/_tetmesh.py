@@ -322,11 +322,11 @@ class TetMesh:
         Parameters
         ----------
         path
-            .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med, .exo, .cgns, .node, or a
+            .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med, .exo, .cgns, .fluent, .node, or a
             folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off or .poly for the boundary and the interfaces.
             docs/formats.md lists what each format holds.
         format
-            The ending to use if the name does not give the format; also "msh2" (version 2.2 of .msh) or "openfoam"
+            The ending to use if the name does not give the format; also "msh2" (version 2.2 of .msh), "fluent" or "openfoam"
             (`path` is the case).
         binary
             .msh: numbers as bytes.

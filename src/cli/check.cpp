@@ -150,7 +150,8 @@ void add_check(CLI::App& app, Command& chosen) {
       ->add_option("SURFACE VOLUME", arguments->files,
                    "The surfaces that were meshed, then the volume (.vtu .pvtu .pvd .vtm .vtk .mesh .meshb "
                    ".msh .inp .unv "
-                   ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .avs .node, or OpenFOAM's constant/polyMesh); "
+                   ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .fluent .cas .avs .node, or OpenFOAM's "
+                   "constant/polyMesh); "
                    "or the folder of a "
                    "split surface; with --repaired the surfaces that were repaired, then the result")
       ->transform(or_standard_input)

@@ -161,7 +161,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   add_partition(*command, arguments->output.pieces);
   command
       ->add_option("--format", arguments->output.format,
-                   "Format to write, instead of by ending; msh2 is .msh 2.2")
+                   "Format to write, instead of by ending; msh2 is .msh 2.2, fluent Fluent's .msh")
       ->option_text("FORMAT");
   add_input_format(*command, arguments->input_format, "Format to read");
   add_threads(*command, arguments->threads);

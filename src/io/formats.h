@@ -38,7 +38,9 @@ struct GmfSolution {
 };
 /// The single scalar or symmetric tensor per vertex in a .solb file.
 [[nodiscard]] GmfSolution read_gmf_solution(const Source& source);
+/// Gmsh's .msh, Fluent's, or one of CalculiX.
 [[nodiscard]] MeshData read_msh(const Source& source);
+[[nodiscard]] MeshData read_msh_surface(const Source& source);
 [[nodiscard]] MeshData read_vtk(const Source& source);
 /// Also reads NAME_surface.vtu if the file says that it exists.
 [[nodiscard]] MeshData read_vtu(const Source& source);
@@ -103,6 +105,13 @@ void write_med(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] MeshData read_cgns(const Source& source);
 void write_cgns(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_cgns(const Volume& volume, const WriteOptions& options);
+/// Ansys Fluent's .msh and .cas. Read as a surface, the cells may be any polyhedra.
+[[nodiscard]] MeshData read_fluent(const Source& source);
+[[nodiscard]] MeshData read_fluent_surface(const Source& source);
+/// Throws std::invalid_argument if a face has more than two tetrahedra.
+void write_fluent(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
+                  Watch& watch);
+[[nodiscard]] std::vector<Remark> not_in_fluent(const Volume& volume, const WriteOptions& options);
 /// Exodus II.
 [[nodiscard]] MeshData read_exodus(const Source& source);
 /// Throws std::invalid_argument if an array is longer than the format's version 2 can say.

@@ -79,6 +79,8 @@ class NamedIds {
     const auto found = other_.find(id);
     return found == other_.end() ? id : found->second;
   }
+  /// Whether the file has given this name.
+  [[nodiscard]] bool has(const std::string& name) const { return ids_.contains(cleaned_name(name)); }
   [[nodiscard]] std::map<int, std::string> take() { return std::move(names_); }
   [[nodiscard]] std::string_view stem() const { return stem_; }
 

@@ -8,8 +8,6 @@ bool is_inp(std::string_view bytes) {
 }
 
 std::string why_no_gmsh_mesh(std::string_view first_word) {
-  if (first_word.starts_with('('))
-    return "a mesh of Ansys Fluent, not of Gmsh; save it in another format, such as Gmsh's";
   if (!first_word.empty() && first_word.find_first_not_of("0123456789") == std::string_view::npos)
     return "a mesh of FreeFEM, not of Gmsh; save it as .mesh";
   return "not a Gmsh mesh: it does not start with $MeshFormat";

@@ -11,6 +11,7 @@
 
 #include "io/cells.h"
 #include "io/entity_ids.h"
+#include "io/fluent.h"
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
@@ -435,7 +436,12 @@ class MshReader {
 }  // namespace
 
 MeshData read_msh(const Source& source) {
-  return is_inp(source.bytes) ? read_inp(source) : MshReader(source).read();
+  if (is_inp(source.bytes)) return read_inp(source);
+  return is_fluent(source.bytes) ? read_fluent(source) : MshReader(source).read();
+}
+
+MeshData read_msh_surface(const Source& source) {
+  return is_fluent(source.bytes) ? read_fluent_surface(source) : read_msh(source);
 }
 
 }  // namespace holdfast::io

@@ -62,6 +62,8 @@ class TextReader {
   /// Offset of what was read last.
   [[nodiscard]] std::size_t last() const { return last_; }
   void seek(std::size_t position) { position_ = last_ = position; }
+  /// Moves on within what was read last, of which errors name the line.
+  void skip(std::size_t bytes) { position_ += bytes; }
   [[nodiscard]] std::string_view remaining() const { return source_.bytes.substr(position_); }
   [[nodiscard]] const Source& source() const { return source_; }
 

@@ -81,6 +81,8 @@ def with_vtk(path):
 
     if path.suffix == ".exo":
         return exodus_with_vtk(path)
+    if path.suffix == ".fluent":
+        return fluent_with_vtk(path)
 
     def read(name):
         reader = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".vtk": vtk.vtkUnstructuredGridReader}[name.suffix]()
@@ -128,6 +130,20 @@ def with_vtk(path):
     found["region_names"] = {n: i for (n, d), i in found_names.items() if d == 3}
     found["marker_names"] = {n: i for (n, d), i in found_names.items() if d == 2 and not n.startswith("holdfast:")}
     return found
+
+
+def fluent_with_vtk(path):
+    """A block for each zone of cells, without names."""
+    import vtk
+
+    reader = vtk.vtkFLUENTReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    blocks = reader.GetOutput()
+    grids = [blocks.GetBlock(i) for i in range(blocks.GetNumberOfBlocks())]
+    tets = [[grid.GetCell(i).GetPointId(k) for k in range(4)] for grid in grids for i in range(grid.GetNumberOfCells())
+            if grid.GetCellType(i) == 10]
+    return measures([grids[0].GetPoint(i) for i in range(grids[0].GetNumberOfPoints())], tets, None, [], None)
 
 
 def exodus_with_vtk(path):
@@ -357,7 +373,7 @@ def with_openfoam(path):
         else:
             case = Path(folder) / "case"
             make_case(case)
-            code, text = foam(case, {".msh": "gmshToFoam", ".unv": "ideasUnvToFoam"}[path.suffix], str(path))
+            code, text = foam(case, {".msh": "gmshToFoam", ".unv": "ideasUnvToFoam", ".fluent": "fluent3DMeshToFoam"}[path.suffix], str(path))
             if code:
                 raise ValueError("conversion: " + text[-400:])
         make_case(case)

@@ -40,6 +40,7 @@ READS = {
     "med": ["meshio", "libmed", "saturne"],
     "exo": ["vtk", "meshio"],
     "cgns": ["saturne"],
+    "fluent": ["openfoam", "vtk"],
     "node": ["meshio"],
     "openfoam": ["openfoam"],
 }
@@ -90,7 +91,7 @@ def write(program, folder, kind, order=1):
 
 
 # Formats that some programs read without the interface, which OpenFOAM has as a face zone.
-INSIDE_IS_LOST = ("su2", "openfoam", "msh2", "unv")
+INSIDE_IS_LOST = ("su2", "openfoam", "msh2", "unv", "fluent")
 
 
 def with_numbers(found):
