@@ -9,6 +9,7 @@
 
 #include "io/cells.h"
 #include "io/exodus.h"
+#include "io/file_sets.h"
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mid_nodes.h"
@@ -229,9 +230,7 @@ class ExodusReader {
     const std::vector<int> ids = ids_of("ss_prop1", "elem_ss");
     if (ids.empty()) return;
     const std::vector<std::string> names = names_of("ss_names", ids.size());
-    for (Index f = 0; f < mesh_.facets.size(); ++f) facet_of_.emplace(ascending(mesh_.facets[f]), f);
-    set_sizes_.assign(mesh_.facets.size(), kNoSet);
-    for (std::size_t f = 0; f < mesh_.facets.size(); ++f) markers_.push_back(mesh_.facet_markers.of(f));
+    FacetSets facets(mesh_);
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const std::string array = numbered("elem_ss", i);
       const std::vector<std::int64_t> elements = members(array), sides = members(numbered("side_ss", i));
@@ -240,20 +239,14 @@ class ExodusReader {
       const int marker = facet_ids_.resolve(ids[i]);
       for (std::size_t k = 0; k < elements.size(); ++k) {
         beat(file_.source().watch);
-        read_side(array, elements[k], sides[k], {marker, elements.size()});
+        read_side(facets, array, elements[k], sides[k], {marker, elements.size()});
       }
     }
-    mesh_.facet_markers = {};
-    for (std::size_t f = 0; f < markers_.size(); ++f) mesh_.facet_markers.add(f, markers_[f]);
+    facets.finish();
   }
 
-  /// A set, where sets overlap: the smallest counts.
-  struct SideSet {
-    int marker;
-    std::size_t size;
-  };
-
-  void read_side(const std::string& array, std::int64_t element, std::int64_t side, const SideSet& set) {
+  void read_side(FacetSets& facets, const std::string& array, std::int64_t element, std::int64_t side,
+                 const SetOfFile& set) {
     if (element < 1 || static_cast<std::uint64_t>(element) > elements_)
       file_.fail(array,
                  "names element " + std::to_string(element) + ", but there are " + std::to_string(elements_));
@@ -274,21 +267,21 @@ class ExodusReader {
             kExodusSideOpposite.begin());
         const Index tetrahedron = block->entities[i];
         const Triangle facet = outward_face(mesh_.tetrahedra[tetrahedron], opposite);
-        return mark(facet, set, [&] { add_side(mesh_, tetrahedron, opposite, 0); });
+        return facets.mark(facet, set, [&] { add_side(mesh_, tetrahedron, opposite, 0); });
       }
       case Shape::cell: {
         const std::size_t of_cell = block->corners == 8   ? kExodusSidesOfHexahedron[k]
                                     : block->corners == 6 ? kExodusSidesOfPrism[k]
                                                           : kExodusSidesOfPyramid[k];
         for (const Triangle& facet : side_of_cell(nodes, of_cell))
-          mark(facet, set, [&] { mesh_.add_facet(facet); });
+          facets.mark(facet, set, [&] { mesh_.add_facet(facet); });
         return;
       }
       case Shape::triangle:
       case Shape::quadrangle:
         if (!plane_ && k < 2) {
           for (Index f = block->entities[i]; f < block->entities[i + 1]; ++f)
-            mark(mesh_.facets[f], set, [] {});
+            facets.mark(mesh_.facets[f], set, [] {});
           return;
         }
         ++edges_;
@@ -312,54 +305,25 @@ class ExodusReader {
     }
   }
 
-  /// Gives a facet the marker of a set; `add` adds it if there is no such facet yet.
-  template <typename Add>
-  void mark(const Triangle& facet, const SideSet& set, Add&& add) {
-    const auto [found, is_new] = facet_of_.emplace(ascending(facet), static_cast<Index>(mesh_.facets.size()));
-    const Index f = found->second;
-    if (is_new) {
-      add();
-      set_sizes_.push_back(set.size);
-      markers_.push_back(set.marker);
-      return;
-    }
-    overlaps_ += set_sizes_[f] != kNoSet && markers_[f] != set.marker ? 1 : 0;
-    if (set_sizes_[f] <= set.size) return;
-    set_sizes_[f] = set.size;
-    markers_[f] = set.marker;
-  }
-
   void read_node_sets() {
     const std::vector<int> ids = ids_of("ns_prop1", "node_ns");
     const std::vector<std::string> names = names_of("ns_names", ids.size());
-    std::vector<std::vector<std::int64_t>> nodes(ids.size());
-    std::vector<std::size_t> order(ids.size());
+    std::vector<VertexSet> sets;
+    for (std::size_t i = 0; i < ids.size(); ++i) vertex_ids_.set(ids[i], names[i]);
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      nodes[i] = members(numbered("node_ns", i));
-      order[i] = i;
-      vertex_ids_.set(ids[i], names[i]);
-    }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return nodes[a].size() > nodes[b].size(); });
-    std::vector<int> markers(mesh_.vertices.size(), 0);
-    std::size_t overlaps = 0;
-    for (const std::size_t i : order)  // the largest first, so that smaller ones overwrite it
-      for (const std::int64_t node : nodes[i]) {
-        if (node < 1 || static_cast<std::uint64_t>(node) > markers.size())
+      VertexSet set{vertex_ids_.resolve(ids[i]), {}};
+      for (const std::int64_t node : members(numbered("node_ns", i))) {
+        if (node < 1 || static_cast<std::uint64_t>(node) > mesh_.vertices.size())
           file_.fail(numbered("node_ns", i), "names node " + std::to_string(node) + ", but there are " +
-                                                 std::to_string(markers.size()));
-        int& marker = markers[static_cast<std::size_t>(node - 1)];
-        overlaps += marker != 0 ? 1 : 0;
-        marker = vertex_ids_.resolve(ids[i]);
+                                                 std::to_string(mesh_.vertices.size()));
+        set.vertices.push_back(static_cast<Index>(node - 1));
       }
-    for (std::size_t v = 0; v < markers.size(); ++v) mesh_.vertex_markers.add(v, markers[v]);
-    mesh_.leave_out(overlaps, "memberships of nodes in larger node sets",
-                    "membership of a node in a larger node set");
+      sets.push_back(std::move(set));
+    }
+    mark_vertices(mesh_, std::move(sets));
   }
 
   void tell_left_out() {
-    mesh_.leave_out(overlaps_, "memberships of sides in larger side sets",
-                    "membership of a side in a larger side set");
     mesh_.leave_out(edges_, "edges and ends in side sets", "edge or end in a side set");
     std::size_t count = 0;
     std::string variables;
@@ -377,11 +341,7 @@ class ExodusReader {
   std::vector<Block> blocks_;
   std::size_t elements_ = 0;
   std::set<int> ids_of_side_sets_;
-  std::map<Triangle, Index> facet_of_;
-  static constexpr std::size_t kNoSet = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> set_sizes_;  ///< by facet, of the set that it belongs to
-  std::vector<int> markers_;            ///< by facet
-  std::size_t overlaps_ = 0, edges_ = 0;
+  std::size_t edges_ = 0;  ///< in side sets
   NamedIds region_ids_{kRegionStem}, facet_ids_{kFacetStem}, segment_ids_{kSegmentStem},
       vertex_ids_{kVertexStem};
 };

@@ -5,17 +5,10 @@
 
 #include "io/fields.h"
 #include "io/formats.h"
-#include "io/named_files.h"
 #include "io/text_reader.h"
 
 namespace holdfast::io {
 namespace {
-
-/// An included file, which replaces the text from `begin` to `end`.
-struct Include {
-  std::size_t begin, end;
-  std::string name;  ///< empty if the line names none
-};
 
 constexpr const char* kLineEnds = "\r\n";
 
@@ -68,57 +61,15 @@ std::optional<Include> next_include(std::string_view bytes, std::size_t from) {
   return std::nullopt;
 }
 
-[[noreturn]] void fail_at(const std::filesystem::path& path, std::string_view bytes, std::size_t position,
-                          const std::string& reason) {
-  throw FileError(path, "line " + std::to_string(line_of(bytes, position)), reason);
-}
-
 }  // namespace
 
-InpIncludes::InpIncludes(const Source& source) : source_(source) {
-  if (next_include(source.bytes, 0)) add(source.path, source.bytes, 0);
-}
-
-Source InpIncludes::source() const {
-  Source whole = source_;
-  if (origins_.empty()) return whole;
-  whole.bytes = text_;
-  whole.origins = origins_;
-  return whole;
-}
-
-void InpIncludes::add(const std::filesystem::path& path, std::string_view bytes, std::size_t depth) {
-  constexpr std::size_t kDeepest = 20, kMostFiles = 1000;
-  std::size_t done = 0;
-  while (const std::optional<Include> include = next_include(bytes, done)) {
-    add_text(path, bytes, done, include->begin);
-    done = include->end;
-    if (include->name.empty()) fail_at(path, bytes, include->begin, "*INCLUDE without INPUT");
-    if (depth == kDeepest || files_.size() == kMostFiles)
-      fail_at(path, bytes, include->begin, "too many files are included, or they include each other");
-    files_.push_back(source_.path.parent_path() / include->name);
-    const std::filesystem::path& file = files_.back();
-    const FileBytes included(file, source_.watch);
-    add(file, included.view(), depth + 1);
-  }
-  add_text(path, bytes, done, bytes.size());
-}
-
-void InpIncludes::add_text(const std::filesystem::path& path, std::string_view bytes, std::size_t begin,
-                           std::size_t end) {
-  if (begin == end) return;
-  if (!text_.empty() && text_.back() != '\n' && text_.back() != '\r' && bytes[begin] != '\n' &&
-      bytes[begin] != '\r')
-    text_ += '\n';
-  origins_.push_back({text_.size(), path, line_of(bytes, begin)});
-  text_ += bytes.substr(begin, end - begin);
+const IncludeRule& inp_includes() {
+  static constexpr IncludeRule kRule{next_include, "*INCLUDE without INPUT"};
+  return kRule;
 }
 
 std::vector<std::filesystem::path> inp_files(const std::filesystem::path& path) {
-  return with_named_files(path, [](const Source& source) {
-    const InpIncludes whole(source);
-    return std::vector(whole.files().begin(), whole.files().end());
-  });
+  return with_included_files(path, inp_includes());
 }
 
 }  // namespace holdfast::io

@@ -186,7 +186,7 @@ class InpReader {
 
 MeshData read_inp(const Source& source) {
   if (is_avs(source.bytes)) return read_avs(source);
-  const InpIncludes whole(source);
+  const Includes whole(source, inp_includes());
   return InpReader(whole.source()).read();
 }
 

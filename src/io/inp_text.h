@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/fields.h"
-#include "io/inp_exact.h"
+#include "io/exact_nodes.h"
 #include "io/labels.h"
 #include "io/placement.h"
 
@@ -106,7 +106,7 @@ class InpText {
  private:
   TextReader text_;
   InpNames& names_;
-  ExactNodes exact_nodes_;
+  ExactNodes exact_nodes_{kInpCharacters};
   std::string_view line_;
   InpScope scope_;
 };

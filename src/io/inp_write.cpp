@@ -4,8 +4,8 @@
 // elements of their own only if shells are requested, because a solver would compute with them.
 #include <algorithm>
 
+#include "io/exact_nodes.h"
 #include "io/formats.h"
-#include "io/inp_exact.h"
 #include "io/labels.h"
 #include "io/mesh_sets.h"
 
@@ -99,13 +99,14 @@ void write_inp(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
   const bool second = is_second_order(volume);
   out << "*HEADING\nmesh by Holdfast\n";
   for (const Labels* labels : {&data.regions, &data.facets}) write_id_comments(out, "**", *labels);
-  write_exact_nodes(out, volume);
+  write_exact_nodes(out, volume, "**", kInpCharacters);
   out << "*NODE\n";
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());
     const Point& p = node(volume, i);
-    out << std::uint64_t{i} + 1 << ", " << inp_real(p[0]) << ", " << inp_real(p[1]) << ", " << inp_real(p[2])
-        << '\n';
+    out << std::uint64_t{i} + 1;
+    for (const double x : p) out << ", " << short_real(x, kInpCharacters);
+    out << '\n';
   }
   write_elements(out, second ? "C3D10" : "C3D4", data.regions, 1,
                  [&](std::size_t i) { return tetrahedron_nodes(volume, i, kVtkEdges); });

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "holdfast/io.h"
-#include "io/inp_exact.h"
+#include "io/exact_nodes.h"
 #include "io_samples.h"
 
 namespace holdfast {
@@ -35,15 +35,16 @@ TEST_F(InpExact, NumbersHave20CharactersAtMost) {
         std::ldexp(static_cast<double>(random() >> 11), k % 2 == 0 ? exponent - 40 : -60 + k % 40);
     if (!std::isfinite(x)) continue;
     for (const double value : {x, -x}) {
-      const std::string text = io::inp_real(value);
+      const std::string text = io::short_real(value, io::kInpCharacters);
       EXPECT_LE(text.size(), 20u) << text;
       EXPECT_NEAR(value_of(text), value, std::fabs(value) * 1e-12);
     }
   }
   for (const double value : {0.0, -0.0, 1.0, -0.1, -0.012345678901234567, 0.0012345678901234567, 1e300})
-    EXPECT_EQ(value_of(io::inp_real(value)), value);
-  EXPECT_LE(io::inp_real(-std::numeric_limits<double>::max()).size(), 20u);
-  EXPECT_TRUE(std::isfinite(value_of(io::inp_real(std::numeric_limits<double>::max()))));
+    EXPECT_EQ(value_of(io::short_real(value, io::kInpCharacters)), value);
+  EXPECT_LE(io::short_real(-std::numeric_limits<double>::max(), io::kInpCharacters).size(), 20u);
+  EXPECT_TRUE(
+      std::isfinite(value_of(io::short_real(std::numeric_limits<double>::max(), io::kInpCharacters))));
 }
 
 TEST_F(InpExact, WhatIsRoundedReadsBackAsItWas) {
@@ -70,7 +71,8 @@ TEST_F(InpExact, WhatIsRoundedReadsBackAsItWas) {
   const std::size_t moved = nodes.find("1, -4.0768646280976");
   ASSERT_NE(moved, std::string::npos) << nodes;
   nodes.replace(moved, 5, "1, -5");
-  EXPECT_EQ(volume(nodes).vertices[0][0], value_of("-5" + io::inp_real(written.vertices[0][0]).substr(2)));
+  EXPECT_EQ(volume(nodes).vertices[0][0],
+            value_of("-5" + io::short_real(written.vertices[0][0], io::kInpCharacters).substr(2)));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "io/inp_exact.h"
+#include "io/exact_nodes.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,8 +11,6 @@
 
 namespace holdfast::io {
 namespace {
-
-constexpr std::size_t kMost = 20;
 
 template <class... How>
 std::string text_of(double value, How... how) {
@@ -33,36 +31,38 @@ bool read(std::string_view text, double& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-double rounded(double value) {
+double rounded(double value, std::size_t most) {
   double result = 0;
-  read(inp_real(value), result);
+  read(short_real(value, most), result);
   return result;
 }
 
-Point rounded(const Point& p) { return {rounded(p[0]), rounded(p[1]), rounded(p[2])}; }
+Point rounded(const Point& p, std::size_t most) {
+  return {rounded(p[0], most), rounded(p[1], most), rounded(p[2], most)};
+}
 
 }  // namespace
 
-std::string inp_real(double value) {
+std::string short_real(double value, std::size_t most) {
   const std::string shortest = without_leading_zero(text_of(value));
-  if (shortest.size() <= kMost) return shortest;
-  // Down to this, zeros after the point take no more room than an exponent.
-  constexpr double kLeastPlain = 1e-4;
-  const bool is_plain = std::fabs(value) >= kLeastPlain && std::fabs(value) < 1;
-  for (int figures = static_cast<int>(kMost);; --figures) {
+  if (shortest.size() <= most) return shortest;
+  // Between these, a number takes no more room without an exponent.
+  constexpr double kLeastPlain = 1e-4, kMostPlain = 1e10;
+  const bool is_plain = std::fabs(value) >= kLeastPlain && std::fabs(value) < kMostPlain;
+  for (int figures = static_cast<int>(most);; --figures) {
     const std::string number = is_plain
                                    ? without_leading_zero(text_of(value, std::chars_format::fixed, figures))
                                    : text_of(value, std::chars_format::scientific, figures);
-    if (number.size() <= kMost) return number;
+    if (number.size() <= most) return number;
   }
 }
 
-void write_exact_nodes(AtomicWriter& out, const Volume& volume) {
+void write_exact_nodes(AtomicWriter& out, const Volume& volume, std::string_view mark, std::size_t most) {
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());
     const Point& p = node(volume, i);
-    if (rounded(p) != p)
-      out << "** exact " << std::uint64_t{i} + 1 << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+    if (rounded(p, most) != p)
+      out << mark << " exact " << std::uint64_t{i} + 1 << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
   }
 }
 
@@ -80,7 +80,7 @@ void ExactNodes::read(std::string_view comment) {
 
 const Point& ExactNodes::of(std::int64_t node, const Point& point) const {
   const auto found = points_.find(node);
-  return found != points_.end() && rounded(found->second) == point ? found->second : point;
+  return found != points_.end() && rounded(found->second, most_) == point ? found->second : point;
 }
 
 }  // namespace holdfast::io
