@@ -150,7 +150,7 @@ void add_check(CLI::App& app, Command& chosen) {
       ->add_option("SURFACE VOLUME", arguments->files,
                    "The surfaces that were meshed, then the volume (.vtu .pvtu .pvd .vtm .vtk .mesh .meshb "
                    ".msh .inp .unv "
-                   ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .fluent .cas .avs .node, or OpenFOAM's "
+                   ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .fluent .k .cas .avs .node, or OpenFOAM's "
                    "constant/polyMesh); "
                    "or the folder of a "
                    "split surface; with --repaired the surfaces that were repaired, then the result")

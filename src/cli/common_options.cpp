@@ -20,7 +20,7 @@ void add_volume_output(CLI::App& command, std::filesystem::path& output) {
   command
       .add_option("-o,--output", output,
                   "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med "
-                  ".exo .cgns .fluent .node, "
+                  ".exo .cgns .fluent .k .node, "
                   "or OpenFOAM's constant/polyMesh), -: standard output")
       ->transform(or_standard_output)
       ->required()
@@ -29,8 +29,9 @@ void add_volume_output(CLI::App& command, std::filesystem::path& output) {
 
 void add_volume_format(CLI::App& command, std::string& format) {
   command
-      .add_option("--format", format,
-                  "Volume format, instead of by ending; msh2 is .msh 2.2, fluent Fluent's .msh, openfoam a case")
+      .add_option(
+          "--format", format,
+          "Volume format, instead of by ending; msh2 is .msh 2.2, fluent Fluent's .msh, openfoam a case")
       ->option_text("FORMAT");
 }
 

@@ -96,6 +96,24 @@ std::vector<Triangle> side_of_cell(std::span<const Index> corners, std::size_t s
   return triangles;
 }
 
+std::optional<Tetrahedron> degenerate_tetrahedron(std::span<const Index> hexahedron) {
+  const auto& n = hexahedron;
+  if (n[4] != n[5] || n[5] != n[6] || n[6] != n[7] || (n[3] != n[2] && n[3] != n[4])) return std::nullopt;
+  const Tetrahedron corners{n[0], n[1], n[2], n[4]};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (corners[i] == corners[k]) return std::nullopt;
+  return corners;
+}
+
+std::vector<Triangle> triangles_of_side(std::span<const Index> corners) {
+  if (corners.size() == 3) return {{corners[0], corners[1], corners[2]}};
+  std::vector<Triangle> triangles;
+  for_each_triangle(Ring(corners, {0, 1, 2, 3}),
+                    [&](const Triangle& triangle) { triangles.push_back(triangle); });
+  return triangles;
+}
+
 void settle_quadrangles(MeshData& mesh) {
   if (mesh.cells.tetrahedra == 0) return;
   for (const Index first : mesh.quadrangles) {

@@ -1,6 +1,7 @@
 // Hexahedra, prisms and pyramids, which are cut into tetrahedra.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,6 +45,13 @@ void add_cell(MeshData& mesh, std::span<const Index> nodes, std::size_t corners,
 /// The triangles of a side of such a cell, by the rule of `add_cell`; empty if there is no such side. Sides
 /// are numbered from 0, in the order in which Abaqus and CalculiX number them from 1.
 [[nodiscard]] std::vector<Triangle> side_of_cell(std::span<const Index> corners, std::size_t side);
+
+/// The tetrahedron in a hexahedron of repeated corners, as programs without tetrahedra write it:
+/// (a b c d d d d d) or (a b c c d d d d). Nothing if it is no such tetrahedron.
+[[nodiscard]] std::optional<Tetrahedron> degenerate_tetrahedron(std::span<const Index> hexahedron);
+
+/// The triangles of a side of three or four corners, by the rule of `add_cell`.
+[[nodiscard]] std::vector<Triangle> triangles_of_side(std::span<const Index> corners);
 
 /// Gives the quadrangles that became facets the diagonals of the cells beside them, if there are any.
 void settle_quadrangles(MeshData& mesh);

@@ -53,7 +53,8 @@ std::string short_real(double value, std::size_t most) {
     const std::string number = is_plain
                                    ? without_leading_zero(text_of(value, std::chars_format::fixed, figures))
                                    : text_of(value, std::chars_format::scientific, figures);
-    if (number.size() <= most) return number;
+    double read_back = 0;  // of the largest doubles, rounding up leaves the range
+    if (number.size() <= most && read(number, read_back)) return number;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,8 @@ class FacetSets {
       remark(found->second, set);
     }
   }
+  /// The triangles of a side of three or four corners: those that the mesh has, or by the rule of `add_cell`.
+  [[nodiscard]] std::vector<Triangle> triangles_of(std::span<const Index> corners) const;
   /// Gives a facet that the mesh has the marker of a set.
   void remark(Index facet, const SetOfFile& set);
   /// Stores the markers in the mesh, and reports memberships in larger sets.

@@ -53,6 +53,7 @@ Paths files_of_surface(const std::filesystem::path& path, std::string_view forma
     return {path, io::sibling(path, ".node")};
   if (extension == ".gltf" || extension == ".glb") return io::gltf_files(path);
   if (extension == ".inp") return io::inp_files(path);
+  if (extension == ".k") return io::dyna_files(path);
   return {path};
 }
 

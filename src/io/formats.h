@@ -112,6 +112,13 @@ void write_cgns(AtomicWriter& out, const Volume& volume);
 void write_fluent(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
                   Watch& watch);
 [[nodiscard]] std::vector<Remark> not_in_fluent(const Volume& volume, const WriteOptions& options);
+/// LS-DYNA's keyword files.
+[[nodiscard]] MeshData read_dyna(const Source& source);
+/// The file and the files it includes; only the file itself if they cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> dyna_files(const std::filesystem::path& path);
+/// Throws std::invalid_argument if there are more nodes or elements than eight digits can number.
+void write_dyna(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_dyna(const Volume& volume, const WriteOptions& options);
 /// Exodus II.
 [[nodiscard]] MeshData read_exodus(const Source& source);
 /// Throws std::invalid_argument if an array is longer than the format's version 2 can say.

@@ -54,6 +54,7 @@ std::vector<Held> formats() {
           {"a.vol"},
           {"a.exo"},
           {"a.cgns"},
+          {"a.k"},
           {"a.fluent", true, true, true, false, {}, false},
           {"a.bdf", false},
           {"a.mfem", true, true, true, false},
