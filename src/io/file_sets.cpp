@@ -55,6 +55,20 @@ void mark_vertices(MeshData& mesh, std::vector<VertexSet> sets) {
                  "membership of a node in a larger node set");
 }
 
+std::vector<Triangle> boundary_of(const MeshData& mesh) {
+  std::vector<std::pair<Triangle, Triangle>> faces;  // with its corners in ascending order first
+  faces.reserve(4 * mesh.tetrahedra.size());
+  for (const Tetrahedron& t : mesh.tetrahedra)
+    for (std::size_t i = 0; i < 4; ++i) faces.emplace_back(ascending(outward_face(t, i)), outward_face(t, i));
+  std::sort(faces.begin(), faces.end());
+  std::vector<Triangle> boundary;
+  for (std::size_t i = 0, j = 0; i < faces.size(); i = j) {
+    while (j < faces.size() && faces[j].first == faces[i].first) ++j;
+    if (j == i + 1) boundary.push_back(faces[i].second);
+  }
+  return boundary;
+}
+
 NodesOnEdges::NodesOnEdges(const MeshData& mesh) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kEdges{
       {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};

@@ -62,6 +62,9 @@ struct VertexSet {
 /// Gives the vertices of sets their markers, and reports memberships in larger sets.
 void mark_vertices(MeshData& mesh, std::vector<VertexSet> sets);
 
+/// The faces of one tetrahedron alone, as seen from outside.
+[[nodiscard]] std::vector<Triangle> boundary_of(const MeshData& mesh);
+
 /// Nodes on the edges of the tetrahedra and facets that a mesh has so far.
 class NodesOnEdges {
  public:

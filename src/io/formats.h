@@ -119,6 +119,11 @@ void write_fluent(const std::filesystem::path& path, const Volume& volume, const
 /// Throws std::invalid_argument if there are more nodes or elements than eight digits can number.
 void write_dyna(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_dyna(const Volume& volume, const WriteOptions& options);
+/// Ansys MAPDL's archives.
+[[nodiscard]] MeshData read_cdb(const Source& source);
+/// Throws std::invalid_argument if there are more nodes or elements than eight digits can number.
+void write_cdb(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_cdb(const Volume& volume, const WriteOptions& options);
 /// Exodus II.
 [[nodiscard]] MeshData read_exodus(const Source& source);
 /// Throws std::invalid_argument if an array is longer than the format's version 2 can say.

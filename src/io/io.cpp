@@ -96,6 +96,7 @@ constexpr Format kFormats[] = {
     {".fluent", read_fluent_surface, read_fluent, write_fluent, not_in_fluent},
     {".cas", read_fluent_surface, read_fluent, nullptr},
     {".k", read_dyna, read_dyna, write_file<write_dyna>, not_in_dyna},
+    {".cdb", read_cdb, read_cdb, write_file<write_cdb>, not_in_cdb},
     {".openfoam", read_openfoam, read_openfoam, write_openfoam, not_in_openfoam},
     {".node", read_node, read_tetgen_volume, write_tetgen_files, nullptr, false},
     {".ele", nullptr, read_tetgen_volume, write_tetgen_files, nullptr, false},

@@ -11,8 +11,8 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<const char*, 13> kFormats{".inp", ".unv", ".bdf",  ".su2", ".mfem",   ".vol", ".vtm",
-                                               ".msh", ".exo", ".cgns", ".med", ".fluent", ".k"};
+constexpr std::array<const char*, 14> kFormats{".inp", ".unv", ".bdf",  ".su2", ".mfem",   ".vol", ".vtm",
+                                               ".msh", ".exo", ".cgns", ".med", ".fluent", ".k",   ".cdb"};
 
 bool finite(const std::vector<Point>& points) {
   return std::all_of(points.begin(), points.end(), [](const Point& p) {

@@ -55,6 +55,7 @@ std::vector<Held> formats() {
           {"a.exo"},
           {"a.cgns"},
           {"a.k"},
+          {"a.cdb"},
           {"a.fluent", true, true, true, false, {}, false},
           {"a.bdf", false},
           {"a.mfem", true, true, true, false},
