@@ -151,7 +151,7 @@ void add_check(CLI::App& app, Command& chosen) {
           "SURFACE VOLUME", arguments->files,
           "The surfaces that were meshed, then the volume (.vtu .pvtu .pvd .vtm .vtk .mesh .meshb "
           ".msh .inp .unv "
-          ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .fluent .k .cdb .cas .avs .node, or OpenFOAM's "
+          ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .fluent .k .cdb .feb .cas .avs .node, or OpenFOAM's "
           "constant/polyMesh); "
           "or the folder of a "
           "split surface; with --repaired the surfaces that were repaired, then the result")

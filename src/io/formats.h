@@ -124,6 +124,10 @@ void write_dyna(AtomicWriter& out, const Volume& volume);
 /// Throws std::invalid_argument if there are more nodes or elements than eight digits can number.
 void write_cdb(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_cdb(const Volume& volume, const WriteOptions& options);
+/// FEBio's models.
+[[nodiscard]] MeshData read_febio(const Source& source);
+void write_febio(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_febio(const Volume& volume, const WriteOptions& options);
 /// Exodus II.
 [[nodiscard]] MeshData read_exodus(const Source& source);
 /// Throws std::invalid_argument if an array is longer than the format's version 2 can say.

@@ -68,7 +68,7 @@ std::vector<Sample> valid_files() {
   WriteOptions whole = uncompressed();
   whole.one_file = true;
   written(".vtu", whole);
-  for (const char* format : {".inp", ".unv", ".bdf", ".su2", ".mfem", ".vol", ".med", ".exo", ".cgns", ".fluent", ".k", ".cdb"}) written(format, {});
+  for (const char* format : {".inp", ".unv", ".bdf", ".su2", ".mfem", ".vol", ".med", ".exo", ".cgns", ".fluent", ".k", ".cdb", ".feb"}) written(format, {});
   return files;
 }
 

@@ -56,6 +56,7 @@ std::vector<Held> formats() {
           {"a.cgns"},
           {"a.k"},
           {"a.cdb"},
+          {"a.feb"},
           {"a.fluent", true, true, true, false, {}, false},
           {"a.bdf", false},
           {"a.mfem", true, true, true, false},
