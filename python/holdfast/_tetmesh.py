@@ -323,7 +323,7 @@ class TetMesh:
         ----------
         path
             .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med, .exo, .cgns, .fluent, .k, .cdb, .feb, .node, or a
-            folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off or .poly for the boundary and the interfaces.
+            folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off, .gts or .poly for the boundary and the interfaces.
             docs/formats.md lists what each format holds.
         format
             The ending to use if the name does not give the format; also "msh2" (version 2.2 of .msh), "fluent" or "openfoam"
@@ -364,7 +364,7 @@ class TetMesh:
         ...     holdfast.read_volume(os.path.join(folder, "one.msh"))
         TetMesh(4 points, 1 tetrahedron, 1 region)
         """
-        surfaces = os.path.splitext(os.fsdecode(path))[1].lower() in (".stl", ".ply", ".obj", ".off", ".poly") and not format
+        surfaces = os.path.splitext(os.fsdecode(path))[1].lower() in (".stl", ".ply", ".obj", ".off", ".gts", ".poly") and not format
         if surfaces or each_region or any(x is not None for x in (order, names, only, scale)):
             with tempfile.TemporaryDirectory() as folder:
                 inner = os.path.join(folder, "mesh.vtu")

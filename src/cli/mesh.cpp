@@ -289,7 +289,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .ts .mesh .meshb .poly .smesh "
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .ts .gts .mesh .meshb .poly "
+          ".smesh "
           ".node "
           ".msh .vtu .vtp .vtk, each also .gz, and any other that `convert` reads); several files are "
           "numbered one after the other; vertices with identical coordinates are one")
@@ -300,7 +301,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
           "-o,--output", arguments->output.path,
           "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med .exo "
           ".cgns .fluent .k .cdb .feb .node, "
-          "or OpenFOAM's constant/polyMesh), or a surface file (.stl .ply .obj .off .poly) for the boundary "
+          "or OpenFOAM's constant/polyMesh), or a surface file (.stl .ply .obj .off .gts .poly) for the "
+          "boundary "
           "and "
           "interfaces of the mesh, -: standard output")
       ->transform(or_standard_output)

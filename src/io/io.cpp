@@ -67,6 +67,7 @@ constexpr Format kFormats[] = {
     {".wrz", read_vrml, nullptr, nullptr},
     {".x3d", read_vrml, nullptr, nullptr},
     {".ts", read_gocad, nullptr, nullptr},
+    {".gts", read_gts, nullptr, nullptr},
     {".mesh", read_medit, read_medit, write_file<write_medit>, nullptr, false},
     {".meshb", read_gmf, read_gmf, write_file<write_gmf>, nullptr, false},
     {".poly", read_poly, nullptr, nullptr},
@@ -162,7 +163,6 @@ std::string_view way_out_of(std::string_view extension) {
                                   {".tec", kOfMeshio},
                                   {".foam", kOfFoam},
                                   {".ast", kOfAscii},
-                                  {".gts", "; `gts2stl < IN > OUT.stl` converts it"},
                                   {".scad", "; `openscad -o OUT.off IN` makes a surface of it"}};
   for (const Way& way : kWays)
     if (way.extension == extension) return way.text;

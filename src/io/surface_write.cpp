@@ -10,6 +10,7 @@
 #include "io/labels.h"
 #include "io/text_reader.h"
 #include "numbers/float_environment.h"
+#include "numbers/sorted.h"
 #include "surface/isolated.h"
 #include "text/count.h"
 
@@ -151,6 +152,30 @@ void write_poly(AtomicWriter& out, const Surface& surface) {
   }
 }
 
+/// Faces name their edges; segments are edges of no face. A face may be followed by its marker.
+void write_gts(AtomicWriter& out, const Surface& surface) {
+  constexpr std::array<std::array<std::size_t, 2>, 3> kSides{{{0, 1}, {1, 2}, {2, 0}}};
+  std::vector<Segment> edges;
+  for (const Segment& s : surface.segments) edges.push_back(ascending(s));
+  for (const Triangle& t : surface.facets)
+    for (const auto& [a, b] : kSides) edges.push_back(ascending(Segment{t[a], t[b]}));
+  sort_unique(edges);
+  out << std::uint64_t{surface.vertices.size()} << ' ' << std::uint64_t{edges.size()} << ' '
+      << std::uint64_t{surface.facets.size()} << " GtsSurface GtsFace GtsEdge GtsVertex\n";
+  for (const Point& p : surface.vertices) out << p << '\n';
+  for (const Segment& edge : edges) out << edge[0] + 1 << ' ' << edge[1] + 1 << '\n';
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    const Triangle& t = surface.facets[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto found =
+          std::lower_bound(edges.begin(), edges.end(), ascending(Segment{t[kSides[k][0]], t[kSides[k][1]]}));
+      out << (k > 0 ? " " : "") << static_cast<std::uint64_t>(found - edges.begin()) + 1;
+    }
+    if (!surface.facet_markers.empty()) out << ' ' << surface.facet_markers[f];
+    out << '\n';
+  }
+}
+
 struct Format {
   std::string_view extension;
   void (*write)(AtomicWriter&, const Surface&);  ///< null: as a volume without tetrahedra
@@ -163,6 +188,7 @@ constexpr std::array kFormats{Format{".off", write_off, false, true, false, fals
                               Format{".obj", write_obj, true, true, false, false, false, &kGroups},
                               Format{".stl", write_stl, true, false, false, false, false, &kSolids},
                               Format{".ply", write_ply, true, false, false, true, false, &kComments},
+                              Format{".gts", write_gts, true, true, false, false, false},
                               Format{".poly", write_poly, true, true, true, true, true},
                               Format{".mesh", nullptr, true, true, false, true, true},
                               Format{".meshb", nullptr, true, true, false, true, true},

@@ -46,6 +46,7 @@ std::vector<Sample> valid_files() {
                                {".3mf", small_3mf(Packing::wide)},
                                {".amf", kSmallAmf},
                                {".ts", kGocad},
+                               {".gts", kGts},
                                {".wrl", kVrml1},
                                {".wrl", kVrml2},
                                {".inp", kAssembly},
@@ -68,7 +69,9 @@ std::vector<Sample> valid_files() {
   WriteOptions whole = uncompressed();
   whole.one_file = true;
   written(".vtu", whole);
-  for (const char* format : {".inp", ".unv", ".bdf", ".su2", ".mfem", ".vol", ".med", ".exo", ".cgns", ".fluent", ".k", ".cdb", ".feb"}) written(format, {});
+  for (const char* format : {".inp", ".unv", ".bdf", ".su2", ".mfem", ".vol", ".med", ".exo", ".cgns",
+                             ".fluent", ".k", ".cdb", ".feb"})
+    written(format, {});
   return files;
 }
 

@@ -261,6 +261,10 @@ inline const char* const kPoly =
     "2 0.2 0.2 0.2 -4.0\n";
 inline const char* const kSmesh =
     "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1\n3 0 2 1 5\n3 0 1 3 6\n3 1 2 3 7\n3 2 0 3 8\n0\n0\n";
+inline const char* const kGts =
+    "# tetrahedron\n4 6 4 GtsSurface GtsFace GtsEdge GtsVertex\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2\n2 3\n3 1\n1 "
+    "4\n2 "
+    "4\n3 4\n3 2 1 5\n1 5 4\n2 6 5\n3 4 6\n";
 inline const char* const kMsh2 =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 7 \"wall\"\n$EndPhysicalNames\n$Nodes\n4\n"
     "10 0 0 0\n20 1 0 0\n40 0 0 1\n30 0 1 0\n$EndNodes\n$Elements\n4\n1 15 2 0 1 10\n2 1 2 0 3 10 20\n"
