@@ -47,6 +47,7 @@ std::vector<Sample> valid_files() {
                                {".amf", kSmallAmf},
                                {".ts", kGocad},
                                {".gts", kGts},
+                               {".dxf", kDxf},
                                {".wrl", kVrml1},
                                {".wrl", kVrml2},
                                {".inp", kAssembly},

@@ -261,6 +261,14 @@ inline const char* const kPoly =
     "2 0.2 0.2 0.2 -4.0\n";
 inline const char* const kSmesh =
     "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1\n3 0 2 1 5\n3 0 1 3 6\n3 1 2 3 7\n3 2 0 3 8\n0\n0\n";
+inline const char* const kDxf =
+    "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n10\n1\n0\n3DFACE\n8\n0\n10\n0\n20\n0\n30\n0\n11\n1\n21\n0\n12\n0"
+    "\n22\n1\n0\n"
+    "ENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nINSERT\n8\nx\n2\nB\n10\n5\n50\n90\n41\n-"
+    "1\n0\nPOLYLINE\n70\n64\n0\n"
+    "VERTEX\n70\n192\n10\n0\n0\nVERTEX\n70\n192\n10\n1\n0\nVERTEX\n70\n192\n20\n1\n0\nVERTEX\n70\n128\n71\n1"
+    "\n72\n2\n"
+    "73\n-3\n0\nSEQEND\n0\nENDSEC\n0\nEOF\n";
 inline const char* const kGts =
     "# tetrahedron\n4 6 4 GtsSurface GtsFace GtsEdge GtsVertex\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2\n2 3\n3 1\n1 "
     "4\n2 "

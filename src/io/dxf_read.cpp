@@ -1,0 +1,234 @@
+// Reads the faces of DXF files as text (AutoCAD DXF reference): 3DFACE, polyface and polygon meshes, MESH,
+// and blocks of these, placed by INSERT. Layers are markers. Lines, texts and solids of CAD kernels have no
+// faces.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "io/dxf_faces.h"
+#include "io/dxf_text.h"
+#include "io/formats.h"
+#include "io/labels.h"
+#include "io/placement.h"
+
+namespace holdfast::io {
+namespace {
+
+struct Insert {
+  std::string block;
+  int layer;
+  Placement placement;  ///< of the first copy
+  std::int64_t rows, columns;
+  Placement row, column;  ///< the steps between copies
+  std::size_t place;
+};
+
+struct Block {
+  explicit Block(const Source& source) : faces(source) {}
+  Point base{0, 0, 0};
+  DxfFaces faces;
+  std::vector<Insert> inserts;
+};
+
+class DxfReader {
+ public:
+  explicit DxfReader(const Source& source) : source_(source), text_(source), top_(source), mesh_(source) {}
+
+  MeshData read() {
+    DxfEntity entity;
+    while (text_.next(entity)) use(entity);
+    if (!has_section_) throw FileError(source_.path, "", "no DXF: the file has no SECTION");
+    if (!has_end_) throw FileError(source_.path, "", "the file does not end with EOF; it is truncated");
+    top_.faces.finish(text_);
+    put(top_, {}, 0, 0);
+    tell_left_out();
+    name_layers();
+    return std::move(mesh_);
+  }
+
+ private:
+  static constexpr std::size_t kDeepest = 100, kMostCopies = std::size_t{1} << 20;
+
+  void use(const DxfEntity& entity) {
+    const std::string_view type = entity.type;
+    if (type == "EOF") {
+      has_end_ = true;
+    } else if (type == "SECTION") {
+      section_ = DxfText::text(entity, 2);
+      has_section_ = true;
+    } else if (type == "ENDSEC") {
+      section_.clear();
+    } else if (section_ == "BLOCKS" && type == "BLOCK") {
+      block_ = &blocks_.try_emplace(std::string(DxfText::text(entity, 2)), source_).first->second;
+      block_->base = text_.point(entity, 10);
+    } else if (section_ == "BLOCKS" && type == "ENDBLK") {
+      if (block_ != nullptr) block_->faces.finish(text_);
+      block_ = nullptr;
+    } else if (section_ == "ENTITIES" || (section_ == "BLOCKS" && block_ != nullptr)) {
+      Block& block = section_ == "ENTITIES" ? top_ : *block_;
+      const bool is_on_paper = text_.integer(entity, 67, 0) == 1;
+      if (is_on_paper) return;
+      if (type == "INSERT")
+        block.inserts.push_back(insert(entity));
+      else if (!block.faces.add(text_, entity, layer_of(entity)))
+        ++others_[std::string(type.substr(0, 24))];
+    }
+  }
+
+  /// From 1; 0 is the layer "0", which means the layer of the block's copy.
+  int layer_of(const DxfEntity& entity) {
+    const std::string name = cleaned_name(DxfText::text(entity, 8));
+    if (name.empty() || name == "0") return 0;
+    const auto [found, is_new] = layers_.try_emplace(name, static_cast<int>(layers_.size()) + 1);
+    return found->second;
+  }
+
+  Insert insert(const DxfEntity& entity) {
+    Placement scaled;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      scaled.m[4 * axis] = text_.real(entity, 41 + static_cast<int>(axis), 1);
+    const Placement plane = placement_of_plane(entity);
+    const Placement turned = plane.after(Placement::turned({}, {0, 0, 1}, text_.real(entity, 50, 0)));
+    Insert result{std::string(DxfText::text(entity, 2)), layer_of(entity), {}, 1, 1, {}, {}, entity.place};
+    result.placement = plane.after(Placement::moved_by(text_.point(entity, 10)))
+                           .after(Placement::turned({}, {0, 0, 1}, text_.real(entity, 50, 0)))
+                           .after(scaled);
+    result.columns = std::max<std::int64_t>(text_.integer(entity, 70, 1), 1);
+    result.rows = std::max<std::int64_t>(text_.integer(entity, 71, 1), 1);
+    result.column = Placement::moved_by(turned.of({text_.real(entity, 44, 0), 0, 0}));
+    result.row = Placement::moved_by(turned.of({0, text_.real(entity, 45, 0), 0}));
+    return result;
+  }
+
+  /// From the coordinates of an entity's plane, by the normal in 210 to 230 ("Arbitrary axis algorithm").
+  Placement placement_of_plane(const DxfEntity& entity) {
+    const Point normal{text_.real(entity, 210, 0), text_.real(entity, 220, 0), text_.real(entity, 230, 1)};
+    if (normal == Point{0, 0, 1}) return {};
+    constexpr double kSmall = 1.0 / 64;
+    const bool is_near_z = std::fabs(normal[0]) < kSmall && std::fabs(normal[1]) < kSmall;
+    const Point z = unit(normal, entity),
+                x = unit(cross(is_near_z ? Point{0, 1, 0} : Point{0, 0, 1}, z), entity);
+    const Point y = cross(z, x);
+    Placement plane;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      plane.m[axis] = x[axis];
+      plane.m[3 + axis] = y[axis];
+      plane.m[6 + axis] = z[axis];
+    }
+    return plane;
+  }
+  static Point cross(const Point& a, const Point& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+  Point unit(const Point& p, const DxfEntity& entity) const {
+    const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    if (!(length > 0)) text_.fail_at(entity.place, "an INSERT whose plane has no normal");
+    return {p[0] / length, p[1] / length, p[2] / length};
+  }
+
+  void put(const Block& block, const Placement& placement, int layer, std::size_t depth) {
+    put_faces(block.faces.mesh(), placement, layer);
+    for (const Insert& insert : block.inserts) {
+      const auto found = blocks_.find(insert.block);
+      if (found == blocks_.end())
+        text_.fail_at(insert.place, "the block " + in_quotes(insert.block) + " does not exist");
+      if (depth == kDeepest) text_.fail_at(insert.place, "blocks that contain each other");
+      const Placement to_base =
+          Placement::moved_by({-found->second.base[0], -found->second.base[1], -found->second.base[2]});
+      const int own = insert.layer == 0 ? layer : insert.layer;
+      Placement row = placement;
+      for (std::int64_t i = 0; i < insert.rows; ++i, row = row.after(insert.row)) {
+        Placement copy = row;
+        for (std::int64_t j = 0; j < insert.columns; ++j, copy = copy.after(insert.column)) {
+          count_copy(insert);
+          put(found->second, copy.after(insert.placement).after(to_base), own, depth + 1);
+        }
+      }
+    }
+  }
+
+  /// Copies of copies can grow exponentially with the length of a file.
+  void count_copy(const Insert& insert) {
+    step(source_.watch);
+    constexpr std::size_t kHarmless = std::size_t{1} << 22, kMostTimes = 1000;
+    const std::size_t size = mesh_.vertices.size() + mesh_.facets.size();
+    if (++copies_ > kMostCopies || (size > kHarmless && size / kMostTimes > source_.bytes.size()))
+      text_.fail_at(insert.place, "more than " + std::to_string(copies_ - 1) + " copies of blocks, " +
+                                      std::to_string(mesh_.facets.size()) +
+                                      " triangles in all; such a file is damaged or malicious");
+  }
+
+  void put_faces(const MeshData& faces, const Placement& placement, int layer) {
+    if (mesh_.vertices.size() + faces.vertices.size() >= no_entity)
+      throw FileError(source_.path, "", "has more vertices than 32 bits count");
+    const auto first = static_cast<Index>(mesh_.vertices.size());
+    for (const Point& vertex : faces.vertices) mesh_.vertices.push_back(placement.of(vertex));
+    const bool mirrors = placement.mirrors();
+    for (std::size_t f = 0; f < faces.facets.size(); ++f) {
+      beat(source_.watch);
+      Triangle facet = faces.facets[f];
+      for (Index& corner : facet) corner += first;
+      if (mirrors) std::swap(facet[1], facet[2]);
+      const int own = faces.facet_markers.of(f) == 0 ? layer : faces.facet_markers.of(f);
+      used_.insert(own);
+      layer_of_facet_.push_back(own);
+      mesh_.add_facet(facet);
+    }
+    mesh_.polygons_cut += faces.polygons_cut;
+    mesh_.deviation = std::max(mesh_.deviation, faces.deviation);
+  }
+
+  /// Layers in use are numbered from 1; a single one is no marker.
+  void name_layers() {
+    std::map<int, std::string> names{{0, "0"}};
+    for (const auto& [name, layer] : layers_) names[layer] = name;
+    std::map<int, int> markers;
+    for (const int layer : used_) {
+      const int marker = used_.size() > 1 ? static_cast<int>(markers.size()) + 1 : 0;
+      markers[layer] = marker;
+      mesh_.names.facets[marker] = names[layer];
+    }
+    mesh_.facet_markers = {};
+    for (std::size_t f = 0; f < layer_of_facet_.size(); ++f)
+      mesh_.facet_markers.add(f, markers[layer_of_facet_[f]]);
+  }
+
+  void tell_left_out() {
+    std::size_t lines = top_.faces.lines();
+    for (const auto& [name, block] : blocks_) lines += block.faces.lines();
+    if (lines > 0) others_["POLYLINE"] += lines;
+    std::string names;
+    std::size_t count = 0;
+    for (const auto& [name, entities] : others_) {
+      names += (names.empty() ? "" : ", ") + in_quotes(name);
+      count += entities;
+    }
+    if (mesh_.facets.empty())
+      throw FileError(
+          source_.path, "",
+          "holds no faces (3DFACE, MESH, polyface or polygon mesh)" +
+              (names.empty() ? "" : ", but " + names + "; export its solids as meshes, or as STL"));
+    mesh_.leave_out(count, "entities without faces (" + names + ")", "entity without faces (" + names + ")");
+  }
+
+  Source source_;
+  DxfText text_;
+  std::string section_;
+  Block top_;
+  std::map<std::string, Block> blocks_;
+  Block* block_ = nullptr;  ///< that is being read
+  MeshData mesh_;
+  std::map<std::string, int> layers_;
+  std::set<int> used_;
+  std::vector<int> layer_of_facet_;
+  std::map<std::string, std::size_t> others_;
+  std::size_t copies_ = 0;
+  bool has_section_ = false, has_end_ = false;
+};
+
+}  // namespace
+
+MeshData read_dxf(const Source& source) { return DxfReader(source).read(); }
+
+}  // namespace holdfast::io
