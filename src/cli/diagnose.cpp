@@ -201,11 +201,12 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "diagnose", "Report the defects of a surface (exit 4), by cause and one by one, and what it encloses");
   command
-      ->add_option("SURFACE", arguments->surfaces,
-                   "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .ts .gts .dxf .mesh "
-                   ".meshb .poly "
-                   ".smesh .node .msh .vtu .vtp .vtk, each also .gz); several files are numbered one after "
-                   "the other; vertices with identical coordinates are one")
+      ->add_option(
+          "SURFACE", arguments->surfaces,
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .mesh "
+          ".meshb .poly "
+          ".smesh .node .msh .vtu .vtp .vtk, each also .gz); several files are numbered one after "
+          "the other; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command->add_option("--marks", arguments->marks, "Write the places of the defects for a viewer")

@@ -289,7 +289,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .ts .gts .dxf .mesh .meshb "
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .mesh .meshb "
           ".poly "
           ".smesh "
           ".node "

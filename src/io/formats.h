@@ -20,6 +20,8 @@ namespace holdfast::io {
 [[nodiscard]] std::vector<std::filesystem::path> gltf_files(const std::filesystem::path& path);
 /// GOCAD's TSurf, PLine and VSet.
 [[nodiscard]] MeshData read_gocad(const Source& source);
+/// COLLADA.
+[[nodiscard]] MeshData read_dae(const Source& source);
 /// Faces of AutoCAD's DXF.
 [[nodiscard]] MeshData read_dxf(const Source& source);
 /// Of the GNU Triangulated Surface library.

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "dae_samples.h"
 #include "gltf_samples.h"
 #include "io/formats.h"
 #include "io_archive_samples.h"
@@ -48,6 +49,7 @@ std::vector<Sample> valid_files() {
                                {".ts", kGocad},
                                {".gts", kGts},
                                {".dxf", kDxf},
+                               {".dae", small_dae()},
                                {".wrl", kVrml1},
                                {".wrl", kVrml2},
                                {".inp", kAssembly},
