@@ -20,7 +20,7 @@ void add_volume_output(CLI::App& command, std::filesystem::path& output) {
   command
       .add_option("-o,--output", output,
                   "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med "
-                  ".exo .cgns .fluent .k .cdb .feb .node, "
+                  ".exo .cgns .fluent .k .cdb .feb .xml .node, "
                   "or OpenFOAM's constant/polyMesh), -: standard output")
       ->transform(or_standard_output)
       ->required()

@@ -301,7 +301,7 @@ void add_mesh(CLI::App& app, Command& chosen) {
       ->add_option(
           "-o,--output", arguments->output.path,
           "Volume file (.vtu .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol .xdmf .med .exo "
-          ".cgns .fluent .k .cdb .feb .node, "
+          ".cgns .fluent .k .cdb .feb .xml .node, "
           "or OpenFOAM's constant/polyMesh), or a surface file (.stl .ply .obj .off .gts .poly) for the "
           "boundary "
           "and "

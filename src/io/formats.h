@@ -134,6 +134,10 @@ void write_cdb(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] MeshData read_febio(const Source& source);
 void write_febio(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_febio(const Volume& volume, const WriteOptions& options);
+/// Legacy DOLFIN's XML.
+[[nodiscard]] MeshData read_dolfin(const Source& source);
+void write_dolfin(AtomicWriter& out, const Volume& volume);
+[[nodiscard]] std::vector<Remark> not_in_dolfin(const Volume& volume, const WriteOptions& options);
 /// Exodus II.
 [[nodiscard]] MeshData read_exodus(const Source& source);
 /// Throws std::invalid_argument if an array is longer than the format's version 2 can say.

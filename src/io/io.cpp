@@ -101,6 +101,7 @@ constexpr Format kFormats[] = {
     {".k", read_dyna, read_dyna, write_file<write_dyna>, not_in_dyna},
     {".cdb", read_cdb, read_cdb, write_file<write_cdb>, not_in_cdb},
     {".feb", read_febio, read_febio, write_file<write_febio>, not_in_febio},
+    {".xml", read_dolfin, read_dolfin, write_file<write_dolfin>, not_in_dolfin},
     {".openfoam", read_openfoam, read_openfoam, write_openfoam, not_in_openfoam},
     {".node", read_node, read_tetgen_volume, write_tetgen_files, nullptr, false},
     {".ele", nullptr, read_tetgen_volume, write_tetgen_files, nullptr, false},

@@ -16,7 +16,7 @@ from cli_case import CUBE_FACETS, CliTest, cube, main, off, shifted
 FORMATS = {"a.vtu": (True, True), "a.vtm": (True, True), "a.vtk": (True, True), "a.mesh": (False, True),
            "a.meshb": (False, True), "a.msh": (True, True), "a.inp": (True, True), "a.unv": (True, True),
            "a.bdf": (True, True), "a.su2": (True, False), "a.mfem": (True, True), "a.vol": (True, True),
-           "a.xdmf": (True, True), "a.med": (True, True), "a.exo": (True, True), "a.cgns": (True, True), "a.fluent": (True, True), "a.k": (True, True), "a.cdb": (True, True), "a.feb": (True, True),
+           "a.xdmf": (True, True), "a.med": (True, True), "a.exo": (True, True), "a.cgns": (True, True), "a.fluent": (True, True), "a.k": (True, True), "a.cdb": (True, True), "a.feb": (True, True), "a.xml": (False, True),
            "a.xmf": (True, True), "polyMesh": (True, True), "a.node": (False, True)}
 MARKERS = {1: "inlet", 2: "outlet", 3: "wall_3", 4: "wall_4", 5: "wall_5", 6: "wall_6", 7: "between"}
 REGIONS = {10: "core", 20: "shell"}

@@ -11,9 +11,9 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<const char*, 15> kFormats{".inp", ".unv",    ".bdf", ".su2", ".mfem",
-                                               ".vol", ".vtm",    ".msh", ".exo", ".cgns",
-                                               ".med", ".fluent", ".k",   ".cdb", ".feb"};
+constexpr std::array<const char*, 16> kFormats{".inp", ".unv", ".bdf", ".su2",  ".mfem", ".vol",
+                                               ".vtm", ".msh", ".exo", ".cgns", ".med",  ".fluent",
+                                               ".k",   ".cdb", ".feb", ".xml"};
 
 bool finite(const std::vector<Point>& points) {
   return std::all_of(points.begin(), points.end(), [](const Point& p) {

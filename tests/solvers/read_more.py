@@ -11,7 +11,7 @@ from assembly import MARKERS, REGIONS
 
 
 def with_dolfin(path):
-    """Legacy DOLFIN reads XDMF: the volume's file, and that of its surface."""
+    """Legacy DOLFIN reads its own XML, and XDMF: the volume's file, and that of its surface."""
     import dolfin
 
     dolfin.set_log_level(40)
@@ -22,11 +22,15 @@ def with_dolfin(path):
             file.read(values, what)
         return dolfin.MeshFunction("size_t", mesh, values)
 
-    mesh = dolfin.Mesh()
-    with dolfin.XDMFFile(str(path)) as file:
-        file.read(mesh)
-    cells = read(path, "region", mesh, 3)
-    facets = read(path.with_name(path.stem + "_surface.xdmf"), "marker", mesh, 2)
+    if path.suffix == ".xml":
+        mesh = dolfin.Mesh(str(path))
+        cells, facets = (dolfin.MeshFunction("size_t", mesh, k, mesh.domains()) for k in (3, 2))
+    else:
+        mesh = dolfin.Mesh()
+        with dolfin.XDMFFile(str(path)) as file:
+            file.read(mesh)
+        cells = read(path, "region", mesh, 3)
+        facets = read(path.with_name(path.stem + "_surface.xdmf"), "marker", mesh, 2)
     mesh.init(2, 0)
     areas = {i: sum(facet_area(mesh, f) for f in np.flatnonzero(facets.array() == i)) for i in MARKERS}
     volumes = {i: sum(dolfin.Cell(mesh, c).volume() for c in np.flatnonzero(cells.array() == i)) for i in REGIONS}

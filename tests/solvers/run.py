@@ -41,6 +41,7 @@ READS = {
     "exo": ["vtk", "meshio"],
     "cgns": ["saturne"],
     "fluent": ["openfoam", "vtk"],
+    "xml": ["dolfin"],
     "node": ["meshio"],
     "openfoam": ["openfoam"],
 }

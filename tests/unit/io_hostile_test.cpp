@@ -73,7 +73,7 @@ std::vector<Sample> valid_files() {
   whole.one_file = true;
   written(".vtu", whole);
   for (const char* format : {".inp", ".unv", ".bdf", ".su2", ".mfem", ".vol", ".med", ".exo", ".cgns",
-                             ".fluent", ".k", ".cdb", ".feb"})
+                             ".fluent", ".k", ".cdb", ".feb", ".xml"})
     written(format, {});
   return files;
 }
