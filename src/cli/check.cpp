@@ -147,14 +147,15 @@ void add_check(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "check", "Verify exactly that a volume keeps a surface, or a repaired surface its input");
   command
-      ->add_option("SURFACE VOLUME", arguments->files,
-                   "The surfaces that were meshed, then the volume (.vtu .pvtu .pvd .vtm .vtk .mesh .meshb "
-                   ".msh .inp .unv "
-                   ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .fluent .k .cdb .feb .xml .cas .avs .node, or "
-                   "OpenFOAM's "
-                   "constant/polyMesh); "
-                   "or the folder of a "
-                   "split surface; with --repaired the surfaces that were repaired, then the result")
+      ->add_option(
+          "SURFACE VOLUME", arguments->files,
+          "The surfaces that were meshed, then the volume (.vtu .pvtu .pvd .vtm .vtk .mesh .meshb "
+          ".msh .inp .unv "
+          ".bdf .su2 .mfem .vol .xdmf .med .exo .cgns .fluent .k .cdb .feb .xml .case .cas .avs .node, or "
+          "OpenFOAM's "
+          "constant/polyMesh); "
+          "or the folder of a "
+          "split surface; with --repaired the surfaces that were repaired, then the result")
       ->transform(or_standard_input)
       ->required();
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,

@@ -177,7 +177,7 @@ void add_untangle(CLI::App& app, Command& chosen) {
       ->add_option(
           "VOLUME", arguments->input,
           "Tangled volume file (.vtu .pvtu .pvd .vtm .vtk .mesh .meshb .msh .inp .unv .bdf .su2 .mfem .vol "
-          ".xdmf .med .exo .cgns .fluent .k .cdb .feb .xml .cas .avs .node, "
+          ".xdmf .med .exo .cgns .fluent .k .cdb .feb .xml .case .cas .avs .node, "
           "or OpenFOAM's constant/polyMesh)")
       ->transform(or_standard_input)
       ->required();

@@ -42,13 +42,10 @@ void real_column(AtomicWriter& out, double value) {
 }
 
 struct CdbLabels : SolverLabels {
-  Labels vertices;
+  MarkedVertices marked;
 
-  explicit CdbLabels(const Volume& volume) : SolverLabels(volume, kNames, kIds) {
-    std::vector<int> marked;  // 0 is no set
-    for (const int marker : volume.vertex_markers)
-      if (marker != 0) marked.push_back(marker);
-    vertices = labels_of(kVertexStem, marked, marked.size(), volume.names.vertices, kNames, {false});
+  explicit CdbLabels(const Volume& volume)
+      : SolverLabels(volume, kNames, kIds), marked(volume, kNames, {false}) {
     set_apart();
   }
 
@@ -56,7 +53,7 @@ struct CdbLabels : SolverLabels {
   /// All components have different names.
   void set_apart() {
     std::set<std::string> taken;
-    for (Labels* labels : {&regions, &facets, &segments, &vertices})
+    for (Labels* labels : {&regions, &facets, &segments, &marked.labels})
       for (auto& [id, name] : labels->names) {
         const std::string wanted = name;
         for (int copy = 2; taken.contains(lower(name)); ++copy) {
@@ -77,7 +74,7 @@ class CdbWriter {
     const bool second = is_second_order(volume_);
     out_ << "/COM,mesh by Holdfast\n";
     // Components of nodes have no number but their name's.
-    for (const auto& [id, name] : labels_.vertices.names)
+    for (const auto& [id, name] : labels_.marked.labels.names)
       if (volume_.names.vertices.contains(id))
         out_ << "/COM, " << kVertexStem << ' ' << id << ' ' << name << '\n';
     out_ << "/PREP7\nET,1," << (second ? kSolid187 : kSolid285) << "\nET,2," << kMesh200 << "\nKEYOPT,2,1,"
@@ -147,12 +144,9 @@ class CdbWriter {
   }
 
   void write_vertex_components() {
-    std::vector<Index> marked;
-    for (Index v = 0; v < volume_.vertex_markers.size(); ++v)
-      if (volume_.vertex_markers[v] != 0) marked.push_back(v);
-    for (const auto& [id, members] : labels_.vertices.sets())
-      write_component(labels_.vertices.names.at(id), "NODE", members,
-                      [&](std::size_t i) { return std::uint64_t{marked[i]} + 1; });
+    for (const auto& [id, members] : labels_.marked.labels.sets())
+      write_component(labels_.marked.labels.names.at(id), "NODE", members,
+                      [&](std::size_t i) { return std::uint64_t{labels_.marked.vertices[i]} + 1; });
   }
 
   AtomicWriter& out_;
@@ -173,7 +167,7 @@ void write_cdb(AtomicWriter& out, const Volume& volume) {
 std::vector<Remark> not_in_cdb(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
   const CdbLabels labels(volume);
-  for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments, &labels.vertices})
+  for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments, &labels.marked.labels})
     tell(*of, ".cdb", remarks);
   return remarks;
 }

@@ -15,18 +15,15 @@ constexpr std::int64_t kMost = 99999999;  // eight digits
 constexpr IdRule kIds{true, static_cast<int>(kMost)};
 
 struct DynaLabels {
-  Labels regions, facets, vertices;
+  Labels regions, facets;
+  MarkedVertices marked;
 
   explicit DynaLabels(const Volume& volume)
       : regions(labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), volume.names.regions, kNames,
                           kIds)),
         facets(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), volume.names.facets, kNames,
-                         kIds)) {
-    std::vector<int> marked;  // 0 is no set
-    for (const int marker : volume.vertex_markers)
-      if (marker != 0) marked.push_back(marker);
-    vertices = labels_of(kVertexStem, marked, marked.size(), volume.names.vertices, kNames, kIds);
-  }
+                         kIds)),
+        marked(volume, kNames, kIds) {}
 };
 
 void column(AtomicWriter& out, std::string_view text, std::size_t width) {
@@ -113,14 +110,11 @@ void write_segments(AtomicWriter& out, const Volume& volume, const Labels& facet
   }
 }
 
-void write_node_sets(AtomicWriter& out, const Volume& volume, const Labels& vertices) {
-  std::vector<Index> marked;
-  for (Index v = 0; v < volume.vertex_markers.size(); ++v)
-    if (volume.vertex_markers[v] != 0) marked.push_back(v);
-  for (const auto& [id, members] : vertices.sets()) {
-    write_set(out, "*SET_NODE_LIST_TITLE", id, vertices.names.at(id));
+void write_node_sets(AtomicWriter& out, const MarkedVertices& marked) {
+  for (const auto& [id, members] : marked.labels.sets()) {
+    write_set(out, "*SET_NODE_LIST_TITLE", id, marked.labels.names.at(id));
     for (std::size_t k = 0; k < members.size(); ++k) {
-      column(out, std::uint64_t{marked[members[k]]} + 1, 10);
+      column(out, std::uint64_t{marked.vertices[members[k]]} + 1, 10);
       if (k % 8 == 7 || k + 1 == members.size()) out << '\n';
     }
   }
@@ -140,14 +134,14 @@ void write_dyna(AtomicWriter& out, const Volume& volume) {
   if (is_surface) write_shells(out, volume, labels.facets);
   write_parts(out, is_surface ? labels.facets : labels.regions);
   if (!is_surface) write_segments(out, volume, labels.facets);
-  write_node_sets(out, volume, labels.vertices);
+  write_node_sets(out, labels.marked);
   out << "*END\n";
 }
 
 std::vector<Remark> not_in_dyna(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
   const DynaLabels labels(volume);
-  for (const Labels* of : {&labels.regions, &labels.facets, &labels.vertices}) tell(*of, ".k", remarks);
+  for (const Labels* of : {&labels.regions, &labels.facets, &labels.marked.labels}) tell(*of, ".k", remarks);
   if (!volume.segments.empty())
     remarks.push_back({RemarkKind::not_held, volume.segments.size(),
                        counted(volume.segments.size(), "segment has", "segments have") + " no place in .k"});

@@ -11,14 +11,10 @@ constexpr NameRule kNames{128, "_-.:/+()", true};
 constexpr IdRule kAnyId{false};
 
 struct FebLabels : SolverLabels {
-  Labels vertices;
+  MarkedVertices marked;
 
-  explicit FebLabels(const Volume& volume) : SolverLabels(volume, kNames, kAnyId) {
-    std::vector<int> marked;  // 0 is no set
-    for (const int marker : volume.vertex_markers)
-      if (marker != 0) marked.push_back(marker);
-    vertices = labels_of(kVertexStem, marked, marked.size(), volume.names.vertices, kNames, kAnyId);
-  }
+  explicit FebLabels(const Volume& volume)
+      : SolverLabels(volume, kNames, kAnyId), marked(volume, kNames, kAnyId) {}
 };
 
 void write_list(AtomicWriter& out, const auto& nodes) {
@@ -56,14 +52,11 @@ void write_nodes(AtomicWriter& out, const Volume& volume) {
   out << "    </Nodes>\n";
 }
 
-void write_node_sets(AtomicWriter& out, const Volume& volume, const Labels& vertices) {
-  std::vector<Index> marked;
-  for (Index v = 0; v < volume.vertex_markers.size(); ++v)
-    if (volume.vertex_markers[v] != 0) marked.push_back(v);
-  for (const auto& [id, members] : vertices.sets()) {
+void write_node_sets(AtomicWriter& out, const MarkedVertices& marked) {
+  for (const auto& [id, members] : marked.labels.sets()) {
     std::vector<Index> nodes;
-    for (const std::size_t k : members) nodes.push_back(marked[k]);
-    out << "    <NodeSet name=\"" << escaped(vertices.names.at(id)) << "\">";
+    for (const std::size_t k : members) nodes.push_back(marked.vertices[k]);
+    out << "    <NodeSet name=\"" << escaped(marked.labels.names.at(id)) << "\">";
     write_list(out, nodes);
     out << "</NodeSet>\n";
   }
@@ -75,7 +68,7 @@ void write_febio(AtomicWriter& out, const Volume& volume) {
   const FebLabels labels(volume);
   const bool second = is_second_order(volume), is_surface = volume.tetrahedra.empty();
   out << "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<febio_spec version=\"4.0\">\n";
-  for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments, &labels.vertices})
+  for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments, &labels.marked.labels})
     for (const auto& [id, name] : of->names)
       out << "  <!-- " << of->stem << ' ' << id << ' ' << escaped(name) << " -->\n";
   out << "  <Module type=\"solid\"/>\n  <Mesh>\n";
@@ -93,7 +86,7 @@ void write_febio(AtomicWriter& out, const Volume& volume) {
     write_groups(out, labels.facets, "Surface", "", triangle, in_group, nodes_of_facet);
   write_groups(out, labels.segments, "Edge", "", second ? "line3" : "line2", in_group,
                [&](std::size_t i) { return segment_nodes(volume, i); });
-  write_node_sets(out, volume, labels.vertices);
+  write_node_sets(out, labels.marked);
   out << "  </Mesh>\n  <MeshDomains>\n";
   for (const auto& [id, name] : is_surface ? labels.facets.names : labels.regions.names)
     out << (is_surface ? "    <ShellDomain name=\"" : "    <SolidDomain name=\"") << escaped(name)
@@ -104,7 +97,7 @@ void write_febio(AtomicWriter& out, const Volume& volume) {
 std::vector<Remark> not_in_febio(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
   const FebLabels labels(volume);
-  for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments, &labels.vertices})
+  for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments, &labels.marked.labels})
     tell(*of, ".feb", remarks);
   return remarks;
 }

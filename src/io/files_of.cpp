@@ -47,7 +47,7 @@ Paths tetgen_files(const std::filesystem::path& path) {
 Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
   const std::string extension = extension_of(path, format);
   for (const std::string_view of_several :
-       {".vtu", ".pvtu", ".pvtp", ".pvd", ".vtm", ".xdmf", ".openfoam", ""})
+       {".vtu", ".pvtu", ".pvtp", ".pvd", ".vtm", ".xdmf", ".openfoam", ".case", ""})
     if (extension == of_several) return files_of_volume(path, format);
   if ((extension == ".poly" || extension == ".smesh") && has_nodes_beside(path))
     return {path, io::sibling(path, ".node")};
@@ -69,6 +69,7 @@ Paths files_of_volume(const std::filesystem::path& path, std::string_view format
             io::surface_beside(io::with_ending(path, ".h5"))};
   if (extension == ".pvtu" || extension == ".pvtp") return io::pvtu_files(path);
   if (extension == ".pvd") return io::pvd_files(path);
+  if (extension == ".case") return io::ensight_files(path);
   if (extension == ".vtm") {
     const std::filesystem::path grid = io::with_ending(plain, ".vtu");
     return {path, grid, io::surface_beside(grid)};

@@ -138,6 +138,10 @@ void write_febio(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] MeshData read_dolfin(const Source& source);
 void write_dolfin(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_dolfin(const Volume& volume, const WriteOptions& options);
+/// EnSight Gold: the geometry that a case names.
+[[nodiscard]] MeshData read_ensight(const Source& source);
+/// The case and its geometry; only the case if it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> ensight_files(const std::filesystem::path& path);
 /// Exodus II.
 [[nodiscard]] MeshData read_exodus(const Source& source);
 /// Throws std::invalid_argument if an array is longer than the format's version 2 can say.

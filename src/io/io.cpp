@@ -97,6 +97,7 @@ constexpr Format kFormats[] = {
     {".exo", read_exodus, read_exodus, write_file<write_exodus>, not_in_exodus},
     {".cgns", read_cgns, read_cgns, write_file<write_cgns>, not_in_cgns},
     {".fluent", read_fluent_surface, read_fluent, write_fluent, not_in_fluent},
+    {".case", read_ensight, read_ensight, nullptr},
     {".cas", read_fluent_surface, read_fluent, nullptr},
     {".k", read_dyna, read_dyna, write_file<write_dyna>, not_in_dyna},
     {".cdb", read_cdb, read_cdb, write_file<write_cdb>, not_in_cdb},
@@ -144,27 +145,17 @@ std::string_view way_out_of(std::string_view extension) {
                                     kOfMeshio = "; `meshio convert IN OUT.vtu` reads it",
                                     kOfFoam = "; give the case's folder",
                                     kOfAscii = "; if it is STL, give the format .stl";
-  static constexpr Way kWays[] = {{".step", kOfCad},
-                                  {".stp", kOfCad},
-                                  {".iges", kOfCad},
-                                  {".igs", kOfCad},
-                                  {".brep", kOfCad},
-                                  {".geo", kOfCad},
-                                  {".3ds", kOfScenes},
-                                  {".fbx", kOfScenes},
-                                  {".blend", kOfScenes},
-                                  {".lwo", kOfScenes},
-                                  {".x", kOfScenes},
-                                  {".ctm", kOfScenes},
-                                  {".case", kOfParaView},
-                                  {".vtkhdf", kOfParaView},
-                                  {".ugrid", kOfMeshio},
-                                  {".mdpa", kOfMeshio},
-                                  {".f3grid", kOfMeshio},
-                                  {".tec", kOfMeshio},
-                                  {".foam", kOfFoam},
-                                  {".ast", kOfAscii},
-                                  {".scad", "; `openscad -o OUT.off IN` makes a surface of it"}};
+  static constexpr Way kWays[] = {
+      {".step", kOfCad},        {".stp", kOfCad},
+      {".iges", kOfCad},        {".igs", kOfCad},
+      {".brep", kOfCad},        {".geo", kOfCad},
+      {".3ds", kOfScenes},      {".fbx", kOfScenes},
+      {".blend", kOfScenes},    {".lwo", kOfScenes},
+      {".x", kOfScenes},        {".ctm", kOfScenes},
+      {".vtkhdf", kOfParaView}, {".ugrid", kOfMeshio},
+      {".mdpa", kOfMeshio},     {".f3grid", kOfMeshio},
+      {".tec", kOfMeshio},      {".foam", kOfFoam},
+      {".ast", kOfAscii},       {".scad", "; `openscad -o OUT.off IN` makes a surface of it"}};
   for (const Way& way : kWays)
     if (way.extension == extension) return way.text;
   return {};

@@ -1,4 +1,4 @@
-// Text formats of solvers with short writers: SU2, MFEM, Netgen's .vol, Nastran's .bdf.
+// Labels and remarks of the writers of solvers' text formats.
 #pragma once
 
 #include "io/formats.h"
@@ -18,6 +18,22 @@ struct SolverLabels {
                          ids)),
         segments(labels_of(kSegmentStem, volume.segment_markers, volume.segments.size(),
                            volume.names.segments, names, ids)) {}
+};
+
+/// The vertices that have a marker: 0 is no set. Labels are in their order.
+struct MarkedVertices {
+  std::vector<Index> vertices;
+  Labels labels;
+
+  MarkedVertices(const Volume& volume, const NameRule& names, const IdRule& ids) {
+    std::vector<int> markers;
+    for (Index v = 0; v < volume.vertex_markers.size(); ++v) {
+      if (volume.vertex_markers[v] == 0) continue;
+      vertices.push_back(v);
+      markers.push_back(volume.vertex_markers[v]);
+    }
+    labels = labels_of(kVertexStem, markers, markers.size(), volume.names.vertices, names, ids);
+  }
 };
 
 /// Reports what formats without segments, vertex markers or second order leave out.

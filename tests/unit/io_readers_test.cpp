@@ -479,7 +479,7 @@ TEST(Files, PathsThatAreNoFiles) {
   EXPECT_NE(reason("a.3ds").find(
                 "cannot be read as a surface; Blender, MeshLab or assimp save it as .obj; the formats are"),
             std::string::npos);
-  EXPECT_NE(reason("a.case").find("; ParaView saves it as .vtu; the formats are"), std::string::npos);
+  EXPECT_NE(reason("a.vtkhdf").find("; ParaView saves it as .vtu; the formats are"), std::string::npos);
   EXPECT_NE(reason("a.ugrid").find("; `meshio convert IN OUT.vtu` reads it; the formats are"),
             std::string::npos);
   EXPECT_NE(reason("a.foam").find("; give the case's folder; the formats are"), std::string::npos);
