@@ -25,8 +25,9 @@ def read_volume(
     cancel: Optional[CancelToken] = None,
     progress: Progress = None,
 ) -> TetMesh:
-    """Reads tetrahedra from .vtu, .pvtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med,
-    .exo, .cgns, .fluent, .k, .cdb, .feb, .xml, .case, .cas, .avs, .ucd, .node with .ele, or a folder polyMesh. Raises FileError.
+    """Reads tetrahedra from .vtu, .pvtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf,
+    .med, .exo, .cgns, .fluent, .k, .cdb, .feb, .xml, .case, .cas, .avs, .ucd, .node with .ele, or a folder polyMesh.
+    Raises FileError.
 
     >>> read_volume("part.vtu")  # doctest: +SKIP
     TetMesh(2817 points, 9213 tetrahedra, 1 region)

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/fields.h"
 #include "io/exact_nodes.h"
+#include "io/fields.h"
 #include "io/labels.h"
 #include "io/placement.h"
 

@@ -142,7 +142,8 @@ TEST(RoundTrip, IndicesWithoutAVertexAreTheCallersMistake) {
     Volume volume = sample_volume();
     spoil(volume, none);
     EXPECT_THROW(static_cast<void>(surface_of(volume)), std::invalid_argument);
-    for (const char* name : {"a.vtu", "a.msh", "a.inp", "a.med", "a.exo", "a.cgns", "a.fluent", "a.k", "a.cdb", "a.feb", "a.xml"})
+    for (const char* name : {"a.vtu", "a.msh", "a.inp", "a.med", "a.exo", "a.cgns", "a.fluent", "a.k",
+                             "a.cdb", "a.feb", "a.xml"})
       EXPECT_THROW(write_volume(folder / name, volume), std::invalid_argument) << name;
   }
   Surface surface = surface_of(sample_volume());
