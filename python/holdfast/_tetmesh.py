@@ -323,7 +323,8 @@ class TetMesh:
         ----------
         path
             .vtu, .vtm, .vtk, .mesh, .meshb, .msh, .inp, .unv, .bdf, .nas, .su2, .mfem, .vol, .xdmf, .med, .exo, .cgns,
-            .fluent, .k, .cdb, .feb, .xml, .node, or a folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off, .gts or .poly for the boundary and the interfaces.
+            .fluent, .k, .cdb, .feb, .xml, .node, or a folder polyMesh (OpenFOAM); or .stl, .ply, .obj, .off,
+            .gts or .poly for the boundary and the interfaces.
             docs/formats.md lists what each format holds.
         format
             The ending to use if the name does not give the format; also "msh2" (version 2.2 of .msh), "fluent" or "openfoam"

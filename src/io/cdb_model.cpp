@@ -1,6 +1,7 @@
 #include "io/cdb_model.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace holdfast::io {
 namespace {
@@ -20,6 +21,7 @@ Sorted sorted_by_number(const Things& things, Number&& number) {
 std::vector<std::size_t> members_of(const CdbComponent& component, const Sorted& sorted) {
   std::vector<std::pair<std::int64_t, std::int64_t>> ranges;
   for (const std::int64_t member : component.members) {
+    if (member == std::numeric_limits<std::int64_t>::min()) continue;  // which has no opposite
     if (member < 0 && !ranges.empty())
       ranges.back().second = -member;
     else

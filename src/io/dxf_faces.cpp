@@ -92,6 +92,9 @@ void DxfFaces::add_vertex(DxfText& text, const DxfEntity& entity) {
   Face face{{}, entity.place};
   for (const int code : {71, 72, 73, 74}) {
     const std::int64_t corner = text.integer(entity, code, 0);  // negative: the side after it is invisible
+    constexpr std::int64_t kMost = std::int64_t{1} << 32;
+    if (corner < -kMost || corner > kMost)
+      text.fail_at(entity.place, "a face of the vertex " + std::to_string(corner));
     if (corner != 0) face.corners.push_back(static_cast<std::size_t>(std::abs(corner)) - 1);
   }
   faces_.push_back(std::move(face));

@@ -93,6 +93,8 @@ TEST(DxfFile, ErrorsNameTheLine) {
             "line 22: the POLYLINE has no SEQEND; the file is truncated or damaged");
   EXPECT_EQ(error(file(" 0 POLYLINE 70 64 0 VERTEX 70 128 71 1 72 2 73 3 0 SEQEND")),
             "line 26: a face names a vertex that is not among the 0 before it");
+  EXPECT_EQ(error(file(" 0 POLYLINE 70 64 0 VERTEX 70 128 71 -9223372036854775808 0 SEQEND")),
+            "line 26: a face of the vertex -9223372036854775808");
   EXPECT_EQ(error(file(" 0 POLYLINE 70 16 71 2 72 30000 0 SEQEND")),
             "line 22: a polygon mesh of 2 times 30000 points, but with 0");
   EXPECT_EQ(error(file(" 0 MESH 93 2 90 4000000000 90 1")),
