@@ -1,4 +1,5 @@
-// A SpacePoint in the memory that its numbers need: a third of it for the crossing of three planes, as a rule.
+// A SpacePoint in the memory that its numbers need: a third of it for the crossing of three planes, as a
+// rule.
 #pragma once
 
 #include <memory>
