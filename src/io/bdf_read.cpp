@@ -214,13 +214,8 @@ class BdfReader {
   }
 
   void tell_skipped() {
-    std::string names;
-    std::size_t count = 0;
-    for (const auto& [name, cards] : skipped_) {
-      names += (names.empty() ? "" : ", ") + in_quotes(name);
-      count += cards;
-    }
-    mesh_.leave_out(count, "cards (" + names + ")", "card (" + names + ")");
+    mesh_.leave_out(
+        skipped_, [](const std::string& name) { return in_quotes(name); }, "cards", "card");
   }
 
   TextReader text_;

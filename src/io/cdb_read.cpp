@@ -306,14 +306,9 @@ class CdbReader {
   }
 
   void tell_skipped() {
-    std::string names;
-    std::size_t count = 0;
-    for (const auto& [name, elements] : skipped_) {
-      names += (names.empty() ? "" : ", ") + std::to_string(name);
-      count += elements;
-    }
-    mesh_.leave_out(count, "elements of other types (" + names + ")",
-                    "element of another type (" + names + ")");
+    mesh_.leave_out(
+        skipped_, [](int type) { return std::to_string(type); }, "elements of other types",
+        "element of another type");
   }
 
   CdbText text_;

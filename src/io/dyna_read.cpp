@@ -331,13 +331,8 @@ class DynaReader {
 
   void tell_skipped() {
     mesh_.leave_out(short_segments_, "segments of two nodes in sets", "segment of two nodes in a set");
-    std::string names;
-    std::size_t count = 0;
-    for (const auto& [name, keywords] : skipped_) {
-      names += (names.empty() ? "" : ", ") + in_quotes(name);
-      count += keywords;
-    }
-    mesh_.leave_out(count, "keywords (" + names + ")", "keyword (" + names + ")");
+    mesh_.leave_out(
+        skipped_, [](const std::string& name) { return in_quotes(name); }, "keywords", "keyword");
   }
 
   DynaText text_;

@@ -155,19 +155,10 @@ class InpReader {
   }
 
   void tell_skipped() {
-    leave_out(skipped_, "block", "*");
-    leave_out(elements_.shapeless(), "element", "");
-  }
-
-  void leave_out(const std::map<std::string, std::size_t>& counts, const std::string& what,
-                 const char* before_names) {
-    std::string names;
-    std::size_t all = 0;
-    for (const auto& [name, count] : counts) {
-      names += (names.empty() ? "" : ", ") + (before_names + name);
-      all += count;
-    }
-    mesh_.leave_out(all, what + "s (" + names + ")", what + " (" + names + ")");
+    mesh_.leave_out(
+        skipped_, [](const std::string& name) { return '*' + name; }, "blocks", "block");
+    mesh_.leave_out(
+        elements_.shapeless(), [](const std::string& name) { return name; }, "elements", "element");
   }
 
   MeshData mesh_;

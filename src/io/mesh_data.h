@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -107,6 +108,18 @@ struct MeshData {
     remarks.push_back(
         {RemarkKind::left_out, count,
          std::to_string(count) + " " + std::string(words) + (count == 1 ? " is" : " are") + " left out"});
+  }
+  /// The same for several kinds, by their numbers: "3 cards ('pshear', 'rod')". `text_of` gives their names.
+  template <typename Kind, typename TextOf>
+  void leave_out(const std::map<Kind, std::size_t>& count_of, TextOf&& text_of, const std::string& what,
+                 const std::string& one) {
+    std::string kinds;
+    std::size_t all = 0;
+    for (const auto& [kind, count] : count_of) {
+      kinds += (kinds.empty() ? "" : ", ") + text_of(kind);
+      all += count;
+    }
+    leave_out(all, what + " (" + kinds + ")", one + " (" + kinds + ")");
   }
   void add_vertex(const Point& vertex, int marker) {
     vertex_markers.add(vertices.size(), marker);
