@@ -18,8 +18,6 @@ namespace {
 
 using exact::SpacePlane;
 using plane::code;
-using plane::kNoEdge;
-using plane::kNoVertex;
 using plane::Position;
 using plane::Vertex;
 

@@ -67,7 +67,7 @@ class DaeReader {
   }
 
   std::vector<double> reals(const DaeElement& element, std::size_t count) const {
-    const std::vector<double> values = file_.reals(element);
+    std::vector<double> values = file_.reals(element);
     if (values.size() != count)
       file_.fail(element, "<" + element.tag.name + "> has " + std::to_string(values.size()) +
                               " numbers instead of " + std::to_string(count));

@@ -25,7 +25,7 @@ std::vector<Triangle> FacetSets::triangles_of(std::span<const Index> corners) co
   if (corners.size() == 4)
     for (const std::size_t k : {0U, 1U}) {
       const Index a = corners[k], b = corners[k + 1], c = corners[k + 2], d = corners[(k + 3) % 4];
-      const std::vector<Triangle> halves{{a, b, c}, {a, c, d}};
+      std::vector<Triangle> halves{{a, b, c}, {a, c, d}};
       if (facet_of_.contains(ascending(halves[0])) && facet_of_.contains(ascending(halves[1]))) return halves;
     }
   return triangles_of_side(corners);

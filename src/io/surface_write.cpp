@@ -277,6 +277,7 @@ std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& s
 
 std::vector<std::string> surface_formats() {
   std::vector<std::string> extensions;
+  extensions.reserve(std::size(io::kFormats));
   for (const io::Format& format : io::kFormats) extensions.emplace_back(format.extension);
   return extensions;
 }

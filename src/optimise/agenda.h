@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/tet_mesh.h"
+#include "numbers/release.h"
 #include "optimise/tuning.h"
 
 namespace holdfast {
@@ -121,9 +122,9 @@ class Agenda {
     std::size_t waiting = own.size();
     for (const Agenda& other : others) waiting += other.heap_.size();
     heap_.reserve(waiting);
-    add(std::move(own));
+    take_all(own);
     for (Agenda& other : others) {
-      add(std::move(other.heap_));
+      take_all(other.heap_);
       std::move(other.below_.begin(), other.below_.end(), std::back_inserter(below_));
       stuck_.insert(stuck_.end(), other.stuck_.begin(), other.stuck_.end());
       worst_stuck_ = std::max(worst_stuck_, other.worst_stuck_);
@@ -150,13 +151,14 @@ class Agenda {
     Tet tet;
   };
 
-  // Leaves the heap without order.
-  void add(std::vector<WaitingElement> waiting) {
+  // Leaves the heap without order, and the list empty.
+  void take_all(std::vector<WaitingElement>& waiting) {
     for (const WaitingElement& e : waiting)
       if (e.quality >= floor_)
         heap_.push_back(e);
       else
         below_.front().push_back({e.quality, e.tet});
+    release(waiting);
   }
   void put(const WaitingElement& e) {
     heap_.push_back(e);

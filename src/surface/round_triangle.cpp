@@ -49,7 +49,7 @@ double distance_above(const Point& p, const std::array<Point, 3>& corner, const 
 
 RoundTriangle::RoundTriangle(const std::vector<std::array<Point, 3>>& corners) {
   // The point of a triangle that is farthest from some place or line is a corner.
-  auto& [a, b, c] = corner_;
+  Point &a = corner_[0], &b = corner_[1], &c = corner_[2];
   const auto square = [](const Point& v) { return dot(v, v); };
   a = farthest(corners, [&](const Point& p) { return square(p - corners[0][0]); });
   b = farthest(corners, [&](const Point& p) { return square(p - a); });
