@@ -72,7 +72,7 @@ std::size_t leave_out_region_names(PasteResult& result) {
   return std::exchange(result.surface.names.regions, {}).size();
 }
 
-/// Adds seeds of the parts' regions if the format holds them.
+/// Adds seeds of the parts' regions if the format holds them. Returns whether there are any.
 bool add_seeds(const PasteArguments& arguments, const PasteOptions& options, const WriteOptions& writing,
                PasteResult& result) {
   if (!holds_seeds(arguments, writing)) return false;
@@ -81,7 +81,7 @@ bool add_seeds(const PasteArguments& arguments, const PasteOptions& options, con
   meshing.threads = arguments.threads;
   meshing.progress = [](const Progress& at) { return goes_on(at.fraction); };
   result.surface = with_seeds(result, meshing);
-  return true;
+  return !result.surface.regions.empty();
 }
 
 /// Reports how the run ended and what the user can do; returns the exit code.

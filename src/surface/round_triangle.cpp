@@ -11,6 +11,7 @@ namespace {
 
 // Unit coordinates err by about 2^-52, sums of a few products by little more.
 constexpr double kMargin = 1e-13;
+constexpr double kShortestAxis = 1e-250;
 
 /// Of all points, the one with the largest value.
 template <class Value>
@@ -72,8 +73,10 @@ RoundTriangle::Axis RoundTriangle::axis(const Point& direction) const {
   return {direction, size, low, high};
 }
 
-/// Whether the axis, one of this triangle, separates them. A comparison with NaN is false: "not sure".
+/// Whether the axis, one of this triangle, separates them. A comparison with NaN is false: "not sure". Nor is
+/// anything sure along an axis so short that products with it underflow.
 bool RoundTriangle::is_apart_along(const Axis& axis, const RoundTriangle& other) const {
+  if (axis.size < kShortestAxis) return false;
   const double p = dot(axis.direction, other.corner_[0]), q = dot(axis.direction, other.corner_[1]),
                r = dot(axis.direction, other.corner_[2]);
   const double reach = (margin_ + other.margin_) * axis.size;
