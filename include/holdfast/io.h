@@ -42,8 +42,9 @@ class HOLDFAST_API FileError : public std::runtime_error {
 struct ReadOptions : Limits {
   std::string format;  ///< overrides the extension: ".stl", ...
   ProgressFunction progress = {};
-  /// How far, in the file's unit, corners of a polygon that is not convex may lie from its mean plane; 0: as
-  /// far as the rounding of its coordinates to six digits or to single precision explains.
+  /// How far, in the file's unit, corners of a facet of several polygons or with holes (.poly) may lie from
+  /// its mean plane, and those of polygons in read_planes from theirs; 0: as far as the rounding of
+  /// coordinates to six digits or to single precision explains. Single polygons need no plane elsewhere.
   double tolerance = 0;
 };
 
@@ -58,10 +59,10 @@ struct ReadOptions : Limits {
 ///   the file.
 /// - A polygon of two corners is a segment (.off, .poly, .smesh, .ply). A polygon of one corner is just its
 ///   vertex. A convex polygon of more than three corners is fanned. Other polygons become constrained
-///   Delaunay triangles, which do not depend on the first corner; such polygons must lie in a plane (see
-///   ReadOptions::tolerance), and their sides must not cross. A corner at the place of the corner before it
-///   does not count. A facet of several polygons or with holes (.poly) becomes triangles of the area that
-///   they enclose.
+///   Delaunay triangles as seen along their normal, plane or not. One whose sides cross becomes triangles of
+///   least area, which may cross, too. A corner at the place of the corner before it does not count. Remarks
+///   tell the largest distance from the plane, and how many cross. A facet of several polygons or with holes
+///   (.poly) becomes triangles of the area that they enclose.
 /// - Markers: references (.mesh, .meshb), boundary markers (.poly, .smesh), physical or else elementary
 ///   tags (.msh), the cell array "marker" (.vtu, .vtp, .vtk), solids (.stl), copies of objects (.3mf, .amf),
 ///   and more (docs/formats.md).

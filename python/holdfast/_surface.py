@@ -205,32 +205,14 @@ class _Polygons(typing.NamedTuple):
 
 
 def _triangles_of(points: Array, offsets: Array, corners: Array) -> _Polygons:
-    """Polygons as triangles. Polygons of more than three corners must be convex."""
+    """Polygons as triangles, cut as the readers of files cut them."""
     counts = np.diff(offsets)
     if np.all(counts == 3):
         return _Polygons(corners.reshape(-1, 3), np.arange(len(counts)))
     if np.any(counts < 3):
         first = int(np.argmax(counts < 3))
         raise ValueError(f"polygon {first} has {int(counts[first])} corners")
-    triangles: list[tuple[int, int, int]] = []
-    origin: list[int] = []
-    for i, (begin, end) in enumerate(zip(offsets[:-1], offsets[1:])):
-        polygon = corners[begin:end]
-        if end - begin > 3:
-            _require_convex(points[polygon], i)
-        for k in range(1, len(polygon) - 1):
-            triangles.append((int(polygon[0]), int(polygon[k]), int(polygon[k + 1])))
-            origin.append(i)
-    return _Polygons(np.array(triangles, np.int64), np.array(origin, np.int64))
-
-
-def _require_convex(corners: Array, number: int) -> None:
-    here = corners.astype(np.float64)
-    ahead, behind = np.roll(here, -1, axis=0), np.roll(here, 1, axis=0)
-    turns = np.cross(here - behind, ahead - here)
-    normal = np.cross(here, ahead).sum(axis=0)
-    if np.any(turns @ normal < 0):
-        raise ValueError(f"polygon {number} is not convex; triangulate the surface first")
+    return _Polygons(*_core.triangles_of_polygons(points_of(points), offsets, corners))
 
 
 def _offsets_of(counted: Array) -> tuple[Array, Array]:
@@ -274,13 +256,13 @@ def _of_pyvista(mesh: Any) -> Surface:
     points = plain(mesh.points, "points")
     if getattr(mesh, "n_strips", 0):
         raise ValueError("the surface has triangle strips; call .triangulate() first")
-    cells = _triangles_of(points, *_offsets_of(mesh.faces))
+    offsets, corners = _offsets_of(mesh.faces)
+    cells = _triangles_of(points, offsets, corners)
     lines = plain(getattr(mesh, "lines", np.empty(0, np.int64)), "lines")
     segments = _lines_of(*_offsets_of(lines)) if lines.size else None
     markers = _named(getattr(mesh, "cell_data", None), "marker")
     if markers is not None:  # VTK counts lines before polygons
-        polygons = int(cells.origin.max()) + 1 if len(cells.origin) else 0
-        markers = markers[len(markers) - polygons :][cells.origin]
+        markers = markers[len(markers) - (len(offsets) - 1) :][cells.origin]
     return Surface(points, cells.triangles, segments=segments, triangle_markers=markers)
 
 
@@ -384,8 +366,8 @@ def read_surface(
     format
         The ending to use (".stl") if the file's own does not give the format.
     tolerance
-        How far corners of a polygon that is not convex may lie from its plane, in the file's unit; rounding is always
-        allowed.
+        How far corners of a facet of several polygons or with holes (`.poly`) may lie from its plane, in the file's unit;
+        rounding is always allowed. Single polygons need no plane.
     time_limit, memory_limit, cancel, progress
         As in `mesh`.
 

@@ -59,4 +59,5 @@ PYBIND11_MODULE(_core, module) {
   register_paste(module);
   register_repair(module);
   register_plane(module);
+  register_polygons(module);
 }

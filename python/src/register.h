@@ -13,5 +13,6 @@ void register_calls(py::module_& module);
 void register_paste(py::module_& module);
 void register_repair(py::module_& module);
 void register_plane(py::module_& module);
+void register_polygons(py::module_& module);
 
 }  // namespace holdfast::python

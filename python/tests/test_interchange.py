@@ -46,10 +46,19 @@ def test_polygons_lines_and_markers():
     mesh = SimpleNamespace(points=points, faces=faces, lines=np.array([2, 0, 7]), cell_data={"marker": np.arange(7)})
     result = holdfast.mesh(mesh)
     assert sorted(set(result.triangle_markers)) == [1, 2, 3, 4, 5, 6] and [0, 7] in result.segments.tolist()
-    bent = SimpleNamespace(points=np.array([(0, 0, 0), (2, 0, 0), (0.5, 0.5, 0), (0, 2, 0), (0, 0, 1)], float),
-                           faces=np.array([4, 0, 1, 2, 3]), cell_data={})
-    with pytest.raises(ValueError, match="polygon 0 is not convex"):
-        holdfast.diagnose(bent)
+
+
+def test_polygons_that_are_not_convex_or_not_plane():
+    corners = [(0, 0, 0), (2, 0, 0), (0.5, 0.5, 0.25), (0, 2, 0), (0, 0, 1)]
+    dart = SimpleNamespace(points=np.array(corners, float), faces=np.array([4, 0, 1, 2, 3, 3, 0, 4, 1, 3, 1, 4, 2, 3, 2, 4, 3, 3, 3, 4, 0]),
+                           cell_data={"marker": np.arange(5)})
+    result = holdfast.mesh(dart)
+    assert {(0, 1, 2), (0, 2, 3)} <= {tuple(sorted(t)) for t in result.triangles.tolist()}
+    assert sorted(set(result.triangle_markers)) == [0, 1, 2, 3, 4]
+    with pytest.raises(ValueError, match="polygon 1 has 2 corners"):
+        holdfast.diagnose(SimpleNamespace(points=dart.points, faces=np.array([3, 0, 1, 2, 2, 0, 1]), cell_data={}))
+    with pytest.raises(ValueError, match="names vertex 9"):
+        holdfast.diagnose(SimpleNamespace(points=dart.points, faces=np.array([4, 0, 1, 2, 9]), cell_data={}))
 
 
 def test_meshio_round_trip(tmp_path):

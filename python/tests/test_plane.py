@@ -188,13 +188,14 @@ def test_stages():
         assert mesh.report["intermediate"]["missing_segments"] == missing
 
 
-def test_surfaces_are_read_with_a_tolerance(tmp_path):
+def test_planes_are_read_with_a_tolerance(tmp_path):
     corners = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (2, 1, 0.01), (0, 4, 0)]
     path = tmp_path / "bent.off"
     path.write_text("OFF\n5 1 0\n" + "".join("%r %r %r\n" % c for c in corners) + "5 0 1 2 3 4\n")
     with pytest.raises(holdfast.FileError, match="lies in no plane"):
-        holdfast.read_surface(path)
-    assert len(holdfast.read_surface(path, tolerance=0.02).triangles) == 3
+        holdfast.plane(path)
+    assert len(holdfast.plane(path, tolerance=0.02).triangles) == 3
+    assert len(holdfast.read_surface(path).triangles) == 3
     for wrong in (-1, np.inf, np.nan):
         with pytest.raises(ValueError, match="tolerance"):
             holdfast.read_surface(path, tolerance=wrong)

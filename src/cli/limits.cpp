@@ -65,7 +65,7 @@ void add_tolerance(CLI::App& command, double& tolerance) {
   command
       .add_option(
           "--tolerance", tolerance,
-          "How far corners of a polygon that is not convex may lie from its plane (default 0: rounding)")
+          "How far corners of a facet of several polygons may lie from its plane (default 0: rounding)")
       ->check([](const std::string& text) {
         const double value = std::strtod(text.c_str(), nullptr);
         return std::isfinite(value) && value >= 0 ? std::string()

@@ -23,8 +23,7 @@ class Geometry {
     if (vertices == nullptr) file_.fail(mesh, "the mesh has no <vertices>");
     read_positions(*vertices);
     for (const DaeElement* part : file_.children(mesh)) read_part(*part);
-    counts_.polygons_cut += mesh_.polygons_cut;
-    counts_.deviation = std::max(counts_.deviation, mesh_.deviation);
+    counts_.polygons.add(mesh_.polygon_counts);
     Solid solid{name, std::move(mesh_.vertices), std::move(mesh_.facets), std::move(materials_), {}};
     for (std::size_t f = 0; f < solid.facets.size(); ++f)
       solid.facet_material.push_back(static_cast<std::size_t>(mesh_.facet_markers.of(f)));

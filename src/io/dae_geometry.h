@@ -10,8 +10,8 @@ namespace holdfast::io {
 
 /// What geometries have that is left out, and polygons that were cut.
 struct DaeCounts {
-  std::size_t lines = 0, others = 0, polygons_cut = 0;
-  double deviation = 0;
+  std::size_t lines = 0, others = 0;
+  PolygonCounts polygons;
 };
 
 /// The solid of a <geometry>; nothing if it is no mesh.

@@ -23,8 +23,7 @@ class DaeReader {
         for (const DaeElement* geometry : file_.children(*library, "geometry")) put(*geometry, "", {});
     }
     MeshData mesh = solids_.take();
-    mesh.polygons_cut = counts_.polygons_cut;
-    mesh.deviation = counts_.deviation;
+    mesh.polygon_counts = counts_.polygons;
     mesh.leave_out(counts_.lines, "lists of lines", "list of lines");
     mesh.leave_out(counts_.others, "geometries that are no meshes", "geometry that is no mesh");
     mesh.leave_out(skins_, "skins and morphs, with the poses of their meshes",

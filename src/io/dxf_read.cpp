@@ -175,8 +175,7 @@ class DxfReader {
       layer_of_facet_.push_back(own);
       mesh_.add_facet(facet);
     }
-    mesh_.polygons_cut += faces.polygons_cut;
-    mesh_.deviation = std::max(mesh_.deviation, faces.deviation);
+    mesh_.polygon_counts.add(faces.polygon_counts);
   }
 
   /// Layers in use are numbered from 1; a single one is no marker.

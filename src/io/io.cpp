@@ -220,14 +220,18 @@ void require_consistent(const Volume& volume) {
 }
 
 void tell_polygons(MeshData& mesh) {
-  if (mesh.polygons_cut > 0)
-    mesh.remarks.push_back(
-        {RemarkKind::polygons_cut, mesh.polygons_cut,
-         counted(mesh.polygons_cut, "polygon") + " of more than three corners " +
-             (mesh.polygons_cut == 1 ? "is" : "are") + " cut into triangles" +
-             (mesh.deviation > 0 ? "; their corners lie up to " + decimal(mesh.deviation, 3) +
-                                       " from the mean plane of their polygon"
-                                 : "")});
+  const PolygonCounts& counts = mesh.polygon_counts;
+  mesh.leave_out(counts.left_out, "faces of fewer than three corners", "face of fewer than three corners");
+  if (counts.cut == 0) return;
+  std::string message = counted(counts.cut, "polygon") + " of more than three corners " +
+                        (counts.cut == 1 ? "is" : "are") + " cut into triangles";
+  if (counts.deviation > 0)
+    message +=
+        "; their corners lie up to " + decimal(counts.deviation, 3) + " from the mean plane of their polygon";
+  if (counts.crossing > 0)
+    message += "; the sides of " + std::to_string(counts.crossing) +
+               " cross or overlap, and triangles of such a polygon may cross, too";
+  mesh.remarks.push_back({RemarkKind::polygons_cut, counts.cut, std::move(message)});
 }
 
 void tell_cells(MeshData& mesh, RemarkKind kind, const char* what) {

@@ -65,6 +65,21 @@ class Tags {
   return tags.empty() ? 0 : tags[i];
 }
 
+/// Faces whose number of corners is not that of a triangle.
+struct PolygonCounts {
+  std::size_t cut = 0;       ///< polygons of more than three corners, which became triangles
+  std::size_t crossing = 0;  ///< of these, those whose sides cross (plane::CutPolygon)
+  std::size_t left_out = 0;  ///< faces of fewer than three corners, in formats to which these mean nothing
+  double deviation = 0;      ///< largest distance of a corner from its polygon's mean plane
+
+  void add(const PolygonCounts& other) {
+    cut += other.cut;
+    crossing += other.crossing;
+    left_out += other.left_out;
+    deviation = std::max(deviation, other.deviation);
+  }
+};
+
 struct MeshData {
   MeshData() = default;
   explicit MeshData(const Source& source)
@@ -85,9 +100,8 @@ struct MeshData {
     std::size_t tetrahedra = 0;  ///< of all these cells
   } cells;
   std::vector<Index> quadrangles;  ///< the first of the two facets of each polygon of four corners
-  std::size_t polygons_cut = 0;    ///< polygons of more than three corners, which became triangles
-  double deviation = 0;         ///< of these, the largest distance of a corner from the polygon's mean plane
-  double tolerance = 0;         ///< on that distance, for polygons that are not convex
+  PolygonCounts polygon_counts;
+  double tolerance = 0;         ///< how far corners of a facet of several polygons may lie from its plane
   bool keeps_polygons = false;  ///< polygons are kept as they are
   std::vector<plane::PolygonFacet> polygons = {};
   Watch* watch = nullptr;
@@ -129,12 +143,11 @@ struct MeshData {
     facet_markers.add(facets.size(), marker);
     facets.push_back(facet);
   }
-  /// The triangles of a polygon.
+  /// The triangles of a polygon, and the largest distance of its corners from its mean plane.
   void add_cut(const std::vector<Triangle>& triangles, double off, int marker) {
     if (triangles.size() == 2) quadrangles.push_back(static_cast<Index>(facets.size()));
     for (const Triangle& triangle : triangles) add_facet(triangle, marker);
-    ++polygons_cut;
-    deviation = std::max(deviation, off);
+    polygon_counts.add({1, 0, 0, off});
   }
   void add_segment(const Segment& segment, int marker = 0) {
     segment_markers.add(segments.size(), marker);

@@ -90,8 +90,7 @@ class ObjReader {
     } else if (keyword == "f" || keyword == "fo") {
       const std::size_t start = text.last();
       read_corners(text);
-      if (corners_.size() < 3) text.fail_at(start, "a face of fewer than 3 corners");
-      add_polygon(mesh_, corners_, 0, [&](const std::string& reason) { text.fail_at(start, reason); });
+      add_face(mesh_, corners_, 0, [&](const std::string& reason) { text.fail_at(start, reason); });
       groups_.resize(mesh_.facets.size(), group_);
       materials_.resize(mesh_.facets.size(), material_);
     } else if (keyword == "l") {

@@ -14,14 +14,9 @@ namespace holdfast::io {
   return [watch](double) { step(watch); };
 }
 
-/// The corners without those at the place of their predecessor; the last corner precedes the first.
-[[nodiscard]] std::vector<Index> without_repeats(std::span<const Point> vertices,
-                                                 std::span<const Index> corners);
-
 /// Adds a "face" of any number of corners to `mesh`: a triangle unchanged, two corners as a segment, one
 /// corner as nothing but the vertex it names, more corners by plane::cut_polygon. A corner at the place of
-/// its predecessor does not count. If there is no triangulation, `fail` is called with the reason, and must
-/// throw.
+/// its predecessor does not count. If there is no corner, `fail` is called with the reason, and must throw.
 template <typename Fail>
 void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fail&& fail) {
   if (mesh.keeps_polygons && !corners.empty()) {
@@ -43,15 +38,19 @@ void add_polygon(MeshData& mesh, std::span<const Index> corners, int marker, Fai
     default:
       break;
   }
-  const std::vector<Index> distinct = without_repeats(mesh.vertices, corners);
-  if (distinct.size() <= 3) {  // at one or two places: a triangle that `diagnose` calls degenerate
-    const std::span<const Index> triangle = distinct.size() == 3 ? std::span<const Index>(distinct) : corners;
-    return mesh.add_facet({triangle[0], triangle[1], triangle[2]}, marker);
-  }
-  const plane::CutPolygon cut =
-      plane::cut_polygon(mesh.vertices, distinct, mesh.tolerance, poll_of(mesh.watch));
-  if (!cut.reason.empty()) fail("a polygon of " + std::to_string(corners.size()) + " corners " + cut.reason);
+  const plane::CutPolygon cut = plane::cut_polygon(mesh.vertices, corners, poll_of(mesh.watch));
+  if (cut.triangles.size() == 1 && !cut.crosses) return mesh.add_facet(cut.triangles[0], marker);
   mesh.add_cut(cut.triangles, cut.deviation, marker);
+  if (cut.crosses) ++mesh.polygon_counts.crossing;
+}
+
+/// The same in formats in which a face of fewer than three corners is no segment: it is left out.
+template <typename Fail>
+void add_face(MeshData& mesh, std::span<const Index> corners, int marker, Fail&& fail) {
+  if (corners.size() < 3)
+    ++mesh.polygon_counts.left_out;
+  else
+    add_polygon(mesh, corners, marker, fail);
 }
 
 /// Adds the triangles of a strip: corners i, i + 1, i + 2, with every other one reversed. Triangles that name

@@ -96,7 +96,7 @@ class PolyReader {
     const bool area = std::any_of(facet.polygons.begin(), facet.polygons.end(), is_area);
     if (facet.holes.empty() && (facet.polygons.size() < 2 || !area)) return false;
     if (!area) text_.fail_at(start, "a facet with holes and without a polygon of three corners or more");
-    const plane::CutPolygon cut =
+    const plane::CutFacet cut =
         plane::cut_facet(mesh_.vertices, facet, mesh_.tolerance, poll_of(mesh_.watch));
     if (!cut.reason.empty()) {
       if (facet.holes.empty()) return false;

@@ -68,8 +68,7 @@ class VrmlReader {
     State state;
     for (const VrmlNode* root : scene_.roots()) visit(*root, state, {});
     MeshData mesh = solids_.take();
-    mesh.polygons_cut = polygons_cut_;
-    mesh.deviation = deviation_;
+    mesh.polygon_counts = polygon_counts_;
     mesh.leave_out(left_out_, "shapes that are no sets of faces", "shape that is no set of faces");
     mesh.leave_out(inlines_, "scenes of other files", "scene of another file");
     mesh.leave_out(own_kinds_, "nodes of kinds that the file defines",
@@ -253,9 +252,8 @@ class VrmlReader {
     std::vector<Index> corners;
     const auto end_face = [&] {
       if (corners.empty()) return;
-      if (corners.size() < 3) scene_.fail(faces, "a face of fewer than 3 corners");
       if (clockwise) std::reverse(corners.begin(), corners.end());
-      add_polygon(part, corners, 0, [&](const std::string& reason) { scene_.fail(faces, reason); });
+      add_face(part, corners, 0, [&](const std::string& reason) { scene_.fail(faces, reason); });
       corners.clear();
     };
     for (const double index : faces.field("coordIndex").numbers) {
@@ -270,8 +268,7 @@ class VrmlReader {
       corners.push_back(static_cast<Index>(index));
     }
     end_face();
-    polygons_cut_ += part.polygons_cut;
-    deviation_ = std::max(deviation_, part.deviation);
+    polygon_counts_.add(part.polygon_counts);
     return {{}, std::move(part.vertices), std::move(part.facets), {}, {}};
   }
 
@@ -280,8 +277,8 @@ class VrmlReader {
   Source part_source_;
   Solids solids_;
   std::map<std::tuple<const VrmlNode*, const VrmlNode*, bool>, Solid> solids_of_;
-  std::size_t depth_ = 0, visits_ = 0, polygons_cut_ = 0, left_out_ = 0, inlines_ = 0, own_kinds_ = 0;
-  double deviation_ = 0;
+  std::size_t depth_ = 0, visits_ = 0, left_out_ = 0, inlines_ = 0, own_kinds_ = 0;
+  PolygonCounts polygon_counts_;
 };
 
 }  // namespace

@@ -126,8 +126,7 @@ class CellReader {
         require_corners(4);
         [[fallthrough]];
       case VtkCell::polygon:
-        if (corners_.size() < 3) fail("is a polygon of fewer than 3 corners");
-        return add_polygon(mesh_, corners_, marker, [&](const std::string& reason) { fail(reason); });
+        return add_face(mesh_, corners_, marker, [&](const std::string& reason) { fail(reason); });
       case VtkCell::tetrahedron:
         require_corners(4);
         return mesh_.add_tetrahedron({corners_[0], corners_[1], corners_[2], corners_[3]},

@@ -125,7 +125,7 @@ void append(MeshData& mesh, MeshData&& part, const std::vector<Index>& number) {
     else
       mesh.add_segment(lines[i], tag_of(segments, i));
   }
-  mesh.polygons_cut += part.polygons_cut;
+  mesh.polygon_counts.add(part.polygon_counts);
   mesh.cells.hexahedra += part.cells.hexahedra;
   mesh.cells.prisms += part.cells.prisms;
   mesh.cells.pyramids += part.cells.pyramids;

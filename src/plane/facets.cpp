@@ -1,9 +1,9 @@
 // Polygons of more than three corners, and facets of several polygons.
 //
-// Floating point only chooses how to cut, or whether to report an error: whether a polygon that lies in no
-// plane is convex, its mean plane, and the coordinate plane that is least inclined to it. Exact signs decide
-// whether a polygon lies in a plane, whether its projection keeps places distinct, and which triangles it
-// gets there. `diagnose` then judges the triangles in space.
+// Floating point only chooses how to cut, or whether a facet counts as plane: whether a polygon that lies in
+// no plane is convex, its mean plane, the coordinate plane that is least inclined to it, and areas. Exact
+// signs decide whether a polygon lies in a plane, whether its projection keeps places distinct, and which
+// triangles it gets there. `diagnose` then judges the triangles in space.
 #include "plane/facets.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 #include "exact/predicates.h"
 #include "numbers/vector.h"
-#include "plane/defects.h"
+#include "plane/least_area.h"
 #include "plane/level.h"
 #include "plane/polygon.h"
 #include "text/decimal.h"
@@ -56,11 +56,13 @@ std::vector<Triangle> fan(std::span<const Point> vertices, std::span<const Index
   std::size_t apex = 0;
   while (apex < n && !(strict[(apex + n - 1) % n] && strict[(apex + 1) % n])) ++apex;
   if (apex == n) return {};
+  const std::size_t first = (apex + 1) % n;
   std::vector<Triangle> triangles;
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const std::size_t b = (apex + i) % n, c = (apex + i + 1) % n;
-    // A left turn everywhere is not enough: a pentagram has that too.
-    if (!(area(apex, b, c) > 0)) return {};
+    // A left turn everywhere is not enough: a pentagram has that, too. Nor are triangles that turn left, if
+    // the polygon winds round its apex: then a corner lies to the right of the first one, seen from there.
+    if (!(area(apex, b, c) > 0 && area(apex, first, c) >= 0)) return {};
     triangles.push_back({corners[apex], corners[b], corners[c]});
   }
   return triangles;
@@ -76,8 +78,8 @@ bool turn_alike(std::span<const Point> vertices, const std::vector<Triangle>& tr
          std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) { return sign(t) == first; });
 }
 
-std::string not_plane(const Level& level, const char* what) {
-  return std::string(what) + " lies in no plane: its corners are up to " + decimal(level.deviation(), 3) +
+std::string not_plane(const Level& level) {
+  return "that lies in no plane: its corners are up to " + decimal(level.deviation(), 3) +
          " away from the mean one; give a larger tolerance, or split it into triangles";
 }
 
@@ -96,55 +98,84 @@ std::vector<Triangle> in_space(const Places& places, const std::vector<Corners3>
   return triangles;
 }
 
-/// The first sides that cross, or the corner on a side, as corner numbers from 1; empty if a polygon only
-/// winds round itself, or has so many sides that the search would take long.
-std::string crossing_of(std::vector<Position> positions, const std::vector<Vertex>& walk) {
-  constexpr std::size_t kMostSides = 1000;
-  if (walk.size() > kMostSides) return {};
-  Plane sides;
-  sides.points = std::move(positions);
-  for (std::size_t i = 0; i < walk.size(); ++i)
-    sides.segments.push_back({walk[i], walk[i + 1 < walk.size() ? i + 1 : 0]});
-  const auto side = [&](Index s) {
-    return std::to_string(s + 1) + "-" + std::to_string((s + 1) % walk.size() + 1);
-  };
-  const std::vector<Defect> defects = find_defects(sides, 1, {});
-  for (const Defect& defect : defects)
-    if (defect.kind == DefectKind::segments_cross)
-      return ": its sides " + side(defect.segments[0]) + " and " + side(defect.segments[1]) +
-             " (by corner) cross";
-  for (const Defect& defect : defects)
-    if (defect.kind == DefectKind::vertex_in_segment) {
-      const auto corner = std::find(walk.begin(), walk.end(), defect.vertices[0]) - walk.begin();
-      return ": its corner " + std::to_string(corner + 1) + " lies on its side " + side(defect.segments[0]) +
-             " (by corner)";
-    }
-  return {};
+/// Triangles in the coordinate plane across an axis; none if places coincide there, or sides cross or
+/// overlap.
+std::vector<Triangle> triangles_across(const Places& places, const std::vector<Vertex>& walk,
+                                       std::size_t axis, const Poll& poll) {
+  std::vector<Position> positions;
+  positions.reserve(places.size());
+  for (Vertex v = 0; v < places.size(); ++v) {
+    const Point& p = places.at(v);
+    positions.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
+  }
+  std::vector<Position> sorted = positions;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return {};
+  const auto flat = triangles_of_walk(positions, walk, poll);
+  return flat ? in_space(places, *flat) : std::vector<Triangle>{};
+}
+
+/// A walk that begins at its first place from the left.
+std::vector<Vertex> from_the_left(const std::vector<Vertex>& walk) {
+  std::vector<Vertex> turned = walk;
+  std::rotate(turned.begin(), std::min_element(turned.begin(), turned.end()), turned.end());
+  return turned;
+}
+
+std::vector<Triangle> by_least_area(const Places& places, const std::vector<Vertex>& walk, const Poll& poll) {
+  const std::vector<Vertex> turned = from_the_left(walk);
+  std::vector<Point> points;
+  points.reserve(turned.size());
+  for (const Vertex place : turned) points.push_back(places.at(place));
+  std::vector<Corners3> triangles = triangles_of_least_area(points, poll);
+  for (Corners3& t : triangles) t = {turned[t[0]], turned[t[1]], turned[t[2]]};
+  return in_space(places, triangles);
+}
+
+/// The corners without those at the place of their predecessor; the last corner precedes the first.
+std::vector<Index> without_repeats(std::span<const Point> vertices, std::span<const Index> corners) {
+  std::vector<Index> distinct;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (vertices[corners[i]] != vertices[corners[(i + corners.size() - 1) % corners.size()]])
+      distinct.push_back(corners[i]);
+  return distinct;
+}
+
+std::vector<Triangle> fan_from_the_first(std::span<const Index> corners) {
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    triangles.push_back({corners[0], corners[i], corners[i + 1]});
+  return triangles;
 }
 
 }  // namespace
 
-CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> corners, double tolerance,
-                       const Poll& poll) {
+CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> given, const Poll& poll) {
+  const std::vector<Index> corners = without_repeats(vertices, given);
+  if (corners.size() == 3) return {{{corners[0], corners[1], corners[2]}}};
+  if (corners.size() < 3) return {{{given[0], given[1], given[2]}}};
   const Places places(vertices, corners);
-  if (!places.finite()) return {{}, "of which one is not finite", 0};
-  if (places.size() < 3) return {{}, "that lie at two places", 0};
+  if (!places.finite() || places.size() < 3) return {fan_from_the_first(corners)};
   std::vector<Vertex> walk;
   walk.reserve(corners.size());
   for (const Index corner : corners) walk.push_back(places.place_of(corner));
-  const Level level(places, sides_of(walk), tolerance);
-  if (level.straight()) return {{}, "that lie on one line", 0};
+  const Level level(places, sides_of(walk), 0);
+  if (level.straight()) return {fan_from_the_first(corners)};
   std::vector<Triangle> triangles = fan(vertices, corners);
   if (!triangles.empty() && (!level.flat() || turn_alike(vertices, triangles, level.axis())))
-    return {std::move(triangles), {}, level.deviation()};
-  if (!level.near_in_file()) return {{}, not_plane(level, "that is not convex and"), 0};
-  const auto flat = triangles_of_walk(projected(places, level), walk, poll);
-  if (!flat) return {{}, "that crosses or overlaps itself" + crossing_of(projected(places, level), walk), 0};
-  return {in_space(places, *flat), {}, level.deviation()};
+    return {std::move(triangles), level.deviation()};
+  const std::size_t axis = level.axis();
+  triangles = triangles_across(places, walk, axis, poll);
+  for (std::size_t k = 1; k < 3 && triangles.empty() && !level.flat(); ++k)
+    triangles = triangles_across(places, walk, (axis + k) % 3, poll);
+  if (!triangles.empty()) return {std::move(triangles), level.deviation()};
+  triangles = by_least_area(places, walk, poll);
+  if (triangles.empty()) triangles = fan_from_the_first(corners);
+  return {std::move(triangles), level.deviation(), true};
 }
 
-CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet, double tolerance,
-                     const Poll& poll) {
+CutFacet cut_facet(std::span<const Point> vertices, const PolygonFacet& facet, double tolerance,
+                   const Poll& poll) {
   std::vector<Index> corners;
   for (const std::vector<Index>& polygon : facet.polygons)
     corners.insert(corners.end(), polygon.begin(), polygon.end());
@@ -165,7 +196,7 @@ CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet,
   const Level level(places, sides_of(first), tolerance);
   if (level.straight()) return {{}, "whose corners lie on one line", 0};
   // Without holes, its polygons may lie separately, in planes that are close to each other.
-  if (!(facet.holes.empty() ? level.near() : level.near_in_file())) return {{}, not_plane(level, "that"), 0};
+  if (!(facet.holes.empty() ? level.near() : level.near_in_file())) return {{}, not_plane(level), 0};
   std::vector<Position> holes;
   for (const Point& hole : facet.holes) holes.push_back(level.project(hole));
   const std::vector<Position> positions = projected(places, level);

@@ -17,25 +17,37 @@ struct PolygonFacet {
   std::vector<Point> holes;
 };
 
-/// The triangles of a "face" of any number of corners, or why it has none.
+/// The triangles of a polygon.
 struct CutPolygon {
-  std::vector<Triangle> triangles;  ///< empty if there is a `reason`
-  std::string reason;
+  std::vector<Triangle> triangles;
   double deviation = 0;  ///< largest distance of a corner from the mean plane; 0 if rounding explains it
+  bool crosses = false;  ///< its sides cross or overlap, seen along its normal
 };
 
-/// The triangles of a polygon of at least four places, with its orientation. A polygon that is convex, seen
-/// along its mean normal, becomes a fan; any other becomes constrained Delaunay triangles in the coordinate
-/// plane least inclined to its own, with all corners kept and independent of the first corner. A polygon that
-/// is not convex must lie in a plane, up to rounding of its coordinates to six digits or to `tolerance`, and
-/// its sides must not cross.
+/// The triangles of a polygon of at least three corners, with its orientation. A corner at the place of the
+/// one before it does not count; what then has at most three corners becomes one triangle.
+/// - If it is convex, seen along its mean normal, it becomes a fan.
+/// - If its sides do not cross in the coordinate plane least inclined to its own (or else in another, if it
+///   is not plane), it becomes constrained Delaunay triangles in that plane, with all corners kept.
+/// - Otherwise it becomes triangles of least area (least_area.h), which may cross each other.
+/// - If it is straight, has a corner that is not finite, or crosses itself and has more corners than
+///   triangles of least area allow, it becomes a fan: no better one is known, and `diagnose` says what is
+///   wrong.
 [[nodiscard]] CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> corners,
-                                     double tolerance, const Poll& poll);
+                                     const Poll& poll);
+
+/// The triangles of a facet, or why it has none.
+struct CutFacet {
+  std::vector<Triangle> triangles;  ///< empty if there is a `reason`
+  std::string reason;
+  double deviation = 0;  ///< as in CutPolygon
+};
 
 /// The triangles of all that the polygons of a facet enclose, except the regions of its holes. They are
-/// oriented as its first polygon of three corners or more.
-[[nodiscard]] CutPolygon cut_facet(std::span<const Point> vertices, const PolygonFacet& facet,
-                                   double tolerance, const Poll& poll);
+/// oriented as its first polygon of three corners or more. The facet must lie in a plane, up to rounding of
+/// its coordinates to six digits (if it has holes) or to `tolerance`.
+[[nodiscard]] CutFacet cut_facet(std::span<const Point> vertices, const PolygonFacet& facet, double tolerance,
+                                 const Poll& poll);
 
 /// The planes of facets, or the number (from 0) of a facet that lies in no plane, and the reason.
 struct FoundPlanes {

@@ -2,8 +2,6 @@
 #include "repair/holes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +9,7 @@
 #include "exact/predicates.h"
 #include "mesh/disjoint_sets.h"
 #include "numbers/sorted.h"
+#include "plane/least_area.h"
 #include "plane/triangulate.h"
 #include "repair/borders.h"
 #include "surface/complex.h"
@@ -18,10 +17,6 @@
 
 namespace holdfast::repairing {
 namespace {
-
-/// A triangulation of least area takes time cubic in the number of sides; longer loops that are not plane
-/// stay open.
-constexpr std::size_t kMostSides = 600;
 
 /// A coordinate axis that is not parallel to the loop's plane, if the loop is plane.
 std::optional<unsigned> plane_axis(const State& state, const Loop& loop) {
@@ -74,48 +69,14 @@ std::vector<Triangle> fill_plane(const State& state, const Loop& loop, unsigned 
   return facets;
 }
 
-double area_of(const Point& a, const Point& b, const Point& c) {
-  std::array<double, 3> u{}, v{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    u[k] = b[k] - a[k];
-    v[k] = c[k] - a[k];
-  }
-  const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
-  return std::sqrt(x * x + y * y + z * z);
-}
-
 /// A triangulation of the loop with the least total area.
 std::vector<Triangle> fill_least(const State& state, const Loop& loop, const Step& step) {
-  const std::size_t n = loop.size();
-  const auto at = [&](std::size_t i) -> const Point& { return state.vertices[loop[i]]; };
-  std::vector<double> least(n * n, 0);
-  std::vector<Index> apex(n * n, 0);
-  for (std::size_t width = 2; width < n; ++width) {
-    step(static_cast<double>(width) / static_cast<double>(n));
-    for (std::size_t i = 0; i + width < n; ++i) {
-      const std::size_t j = i + width;
-      double& best = least[i * n + j];
-      best = std::numeric_limits<double>::infinity();
-      for (std::size_t k = i + 1; k < j; ++k) {
-        const double area = least[i * n + k] + least[k * n + j] + area_of(at(i), at(k), at(j));
-        if (!(area < best)) continue;
-        best = area;
-        apex[i * n + j] = static_cast<Index>(k);
-      }
-    }
-  }
+  std::vector<Point> places;
+  places.reserve(loop.size());
+  for (const Index v : loop) places.push_back(state.vertices[v]);
   std::vector<Triangle> facets;
-  std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
-  while (!open.empty()) {
-    const auto [i, j] = open.back();
-    open.pop_back();
-    if (j - i < 2) continue;
-    const std::size_t k = apex[i * n + j];
-    if (k == 0) return {};
-    facets.push_back({loop[i], loop[k], loop[j]});
-    open.emplace_back(i, k);
-    open.emplace_back(k, j);
-  }
+  for (const auto& t : plane::triangles_of_least_area(places, step))
+    facets.push_back({loop[t[0]], loop[t[1]], loop[t[2]]});
   return facets;
 }
 
@@ -130,7 +91,7 @@ std::optional<Filling> filling_of(const State& state, const Loop& loop, const St
   std::vector<Triangle> facets;
   if (axis)
     facets = fill_plane(state, loop, *axis, step);
-  else if (loop.size() <= kMostSides)
+  else
     facets = fill_least(state, loop, step);
   if (facets.empty()) return std::nullopt;
   return Filling{loop, std::move(facets), axis.has_value()};
