@@ -30,6 +30,9 @@ Nearness beside_facet(const Point& p, const Point& a, const Point& b, const Poin
   if (!(t > 0) || !(s > 0) || !(t + s < 1)) return near;
   near.distance = std::fabs(dot(ws, n)) / std::sqrt(nn) * size;
   near.tilt = size / std::sqrt(nn) * 0x1p-50;
+  Vector rest{};
+  for (std::size_t k = 0; k < 3; ++k) rest[k] = ws[k] - t * us[k] - s * vs[k];
+  near.reach = length(rest) * size;
   for (std::size_t k = 0; k < 3; ++k) near.foot[k] = a[k] + t * u[k] + s * v[k];
   return near;
 }

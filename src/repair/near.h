@@ -28,11 +28,14 @@ struct Nearness {
   double t = 0;     ///< along the side
   Point foot{};     ///< the point below
   double size = 0;  ///< magnitude of the numbers behind the distance
+  /// The distance from the point of the side or facet that is the foot in floating point. The normal of a
+  /// sliver is uncertain, and so is the distance along it; this one is not, and is never too small.
+  double reach = 0;
   /// Error of the distance from a sliver, whose normal is uncertain because its area is small.
   double tilt = 0;
 
   /// Of the distance, whose error is some last bits of these.
-  [[nodiscard]] double bound() const { return distance + size * 0x1p-49; }
+  [[nodiscard]] double bound() const { return std::max(distance, reach) + size * 0x1p-49; }
 };
 
 /// Beside the inside of the side ab.

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "check_repair/reach.h"
+
 namespace holdfast::repairing {
 namespace {
 
@@ -86,6 +88,33 @@ TEST(Near, FarFromFacetIsNeverTrueForANearPoint) {
   }
   EXPECT_GT(near, 10'000);
   EXPECT_GT(far, 50'000);
+}
+
+/// The normal of a sliver is uncertain, and so is the distance along it.
+TEST(Near, BoundsAreNeverBelowTheDistanceFromAFacet) {
+  std::mt19937_64 random(5);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto vector = [&](double size) {
+    return Point{between(-size, size), between(-size, size), between(-size, size)};
+  };
+  int beside = 0;
+  for (int trial = 0; trial < 100'000; ++trial) {
+    const double width = std::exp2(between(-50, 0)), away = std::exp2(between(-54, 0));
+    const Point a = vector(1), b = vector(1), aside = vector(width), off = vector(away);
+    Point c{}, p{};
+    const double s = between(0, 0.5), t = between(0, 0.5), along = between(-1, 2);
+    for (std::size_t k = 0; k < 3; ++k) {
+      c[k] = a[k] + along * (b[k] - a[k]) + aside[k];
+      p[k] = a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]) + off[k];
+    }
+    const Nearness near = beside_facet(p, a, b, c);
+    if (!std::isfinite(near.distance)) continue;
+    ++beside;
+    EXPECT_TRUE(checking::Reach(near.bound()).of_triangle(p, {a, b, c})) << near.distance;
+  }
+  EXPECT_GT(beside, 10'000);
 }
 
 TEST(Near, FarFromFacetIsFalseWithoutAreaOrBeyondTheRangeOfProducts) {
