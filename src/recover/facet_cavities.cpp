@@ -1,19 +1,17 @@
 #include "recover/facet_cavities.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "delaunay/box.h"
 #include "delaunay/delaunay.h"
 #include "mesh/editor.h"
 #include "mesh/keys.h"
 #include "mesh/traverse.h"
 #include "numbers/sorted.h"
-#include "numbers/vector.h"
+#include "recover/far_points.h"
 #include "recover/insert_vertex.h"
 #include "recover/recover.h"
 #include "recover/standing.h"
@@ -77,7 +75,11 @@ class Cavity {
     const Complex complex{local.points, local.facets, local.segments, {}, {}};
     const SegmentTable table = segment_table(complex);
     TetMesh mesh;
-    if (!triangulate(local, seed, mesh)) return std::nullopt;
+    if (!triangulate(far_points(local.points, local.facets.front()), seed, mesh)) {
+      mesh = {};
+      if (!triangulate(far_points_all_round(local.points, local.facets.front()), seed, mesh))
+        return std::nullopt;
+    }
     const auto first_free = static_cast<Vertex>(mesh.vertex_count());
     tell();
     Standing standing = mark_present(mesh, table);
@@ -125,45 +127,30 @@ class Cavity {
 
   // Makes Delaunay tetrahedra of the vertices that have doubles and of the far points. Then it inserts the
   // other vertices. Until then they stand at a corner of the facet, so that Delaunay leaves them out as
-  // duplicates.
-  bool triangulate(const Local& local, std::uint64_t seed, TetMesh& mesh) const {
+  // duplicates. Returns whether all vertices lie inside the hull, where constraints can be enforced.
+  bool triangulate(const std::vector<Point>& far, std::uint64_t seed, TetMesh& mesh) const {
     for (const Vertex v : vertices_)
       MeshEditor(mesh).add_vertex(mesh_.position(mesh_.is_explicit(v) ? v : facet_[0]));
-    for (const Point& p : far_points(local)) MeshEditor(mesh).add_vertex(p);
+    for (const Point& p : far) MeshEditor(mesh).add_vertex(p);
     MeshEditor(mesh).set_grid(mesh_.grid());
-    if (!build_delaunay(mesh, {seed}, nullptr)) return false;
+    if (!build_delaunay(mesh, {seed}, nullptr) || !has_all_inside(mesh)) return false;
     auto random = static_cast<std::uint32_t>(seed);
     for (Vertex k = 0; k < vertices_.size(); ++k) {
       if (mesh_.is_explicit(vertices_[k])) continue;
       MeshEditor(mesh).move_vertex(k, mesh_.exact_position(vertices_[k]));
       if (!insert_vertex(mesh, k, random)) return false;
     }
-    return true;
+    return has_all_inside(mesh);
   }
 
-  // Corners of a box above the facet, and one point far below it. That point is so far away that a sphere
-  // through it and the facet's corners contains no vertex of the cavity; so the facet is a Delaunay triangle
-  // inside the hull.
-  [[nodiscard]] std::vector<Point> far_points(const Local& local) const {
-    const Triangle& f = local.facets.front();
-    const std::array<Point, 3> p{local.points[f[0]], local.points[f[1]], local.points[f[2]]};
-    const std::array<Point, 8> corners = box_corners(local.points, tuning::kCavityMargin);
-    std::vector<Point> out;
-    for (const Point& corner : corners)
-      if (exact::orient3d(p[0].data(), p[1].data(), p[2].data(), corner.data()) > 0) out.push_back(corner);
-    const Point u = p[1] - p[0], v = p[2] - p[0];
-    const Vector n = cross(u, v);
-    const double area = length(n), extent = distance(corners[7], corners[0]);
-    double lowest = extent;
-    for (const Point& q : local.points) {
-      const double height = dot(q - p[0], n) / area;
-      if (height > 0) lowest = std::min(lowest, height);
+  // Whether the hull's vertices are far points alone.
+  [[nodiscard]] bool has_all_inside(const TetMesh& mesh) const {
+    for (Tet t = 0; t < mesh.slot_count(); ++t) {
+      if (!mesh.alive(t) || !mesh.is_ghost(t)) continue;
+      const TetMesh::Corners& c = mesh.corners(t);
+      if (std::any_of(c.begin(), c.end(), [&](Vertex v) { return v < vertices_.size(); })) return false;
     }
-    const double depth = std::clamp(extent * extent / lowest, extent, tuning::kDeepest * extent);
-    Point below{};
-    for (std::size_t k = 0; k < 3; ++k) below[k] = (p[0][k] + p[1][k] + p[2][k]) / 3 - depth / area * n[k];
-    out.push_back(below);
-    return out;
+    return true;
   }
 
   [[nodiscard]] Vertex local(Vertex v) const {

@@ -23,9 +23,10 @@ inline constexpr std::size_t kMostClipped = 1000;      ///< tetrahedra of a shel
 inline constexpr int kMostWalk = 400;  ///< steps round a vertex; then its whole ball is looked at
 
 // The two cavities of a facet.
-inline constexpr int kCavityPasses = 8;       ///< of flips, in a cavity's own mesh
-inline constexpr int kMostGrowth = 2;         ///< times that a cavity grows beyond its missing faces
-inline constexpr double kCavityMargin = 0.5;  ///< of the box round a cavity, in extents
+inline constexpr int kCavityPasses = 8;        ///< of flips, in a cavity's own mesh
+inline constexpr int kMostGrowth = 2;          ///< times that a cavity grows beyond its missing faces
+inline constexpr double kCavityMargin = 0.5;   ///< of the box round a cavity, in extents
+inline constexpr double kAboveFacet = 0x1p-6;  ///< extents, of the points round a facet inclined to its box
 inline constexpr double kDeepest = 1e6;  ///< extents below the facet, of the point that makes it Delaunay
 
 }  // namespace holdfast::tuning

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "mesh/traverse.h"
 #include "mesh/validate.h"
 #include "recover/facet_cavities.h"
+#include "recover/far_points.h"
 #include "recover/flipper.h"
 #include "recover/insert_vertex.h"
 #include "recover/pierce.h"
@@ -394,6 +396,38 @@ TEST(FacetCavities, HoldVerticesWithoutDoubles) {
     EXPECT_NE(find_face(run.mesh, 0, 1, 2), kNone);
     for (const Vertex v : inexact) EXPECT_TRUE(run.mesh.in_mesh(v) && !run.mesh.is_explicit(v));
   }
+}
+
+// The vertices of the hull of the points and others, of those that come first.
+std::size_t on_hull(const std::vector<Point>& points, const std::vector<Point>& others) {
+  TetMesh mesh;
+  for (const Point& p : points) MeshEditor(mesh).add_vertex(p);
+  for (const Point& p : others) MeshEditor(mesh).add_vertex(p);
+  EXPECT_TRUE(build_delaunay(mesh, {}, nullptr));
+  std::set<Vertex> hull;
+  for (Tet t = 0; t < mesh.slot_count(); ++t)
+    if (mesh.alive(t) && mesh.is_ghost(t)) hull.insert(mesh.corners(t).begin(), mesh.corners(t).end());
+  return static_cast<std::size_t>(
+      std::count_if(hull.begin(), hull.end(), [&](Vertex v) { return v < points.size(); }));
+}
+
+// No constraint can be enforced on a hull. A surface of furniture crashed.
+TEST(FarPoints, HoldACavityOfAnInclinedFacet) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> wide(-1.5, 1.5), high(1e-6, 0.1);
+  std::size_t narrow = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Point> points{{-2, -1, 0}, {1.5, -1, 0}, {0, 2, 0}};
+    for (int k = 0; k < 60; ++k) points.push_back({wide(random), wide(random), high(random)});
+    const double a = wide(random), b = 2 * wide(random);
+    for (Point& p : points) {
+      p = {p[0], std::cos(a) * p[1] - std::sin(a) * p[2], std::sin(a) * p[1] + std::cos(a) * p[2]};
+      p = {std::cos(b) * p[0] - std::sin(b) * p[2], p[1], std::sin(b) * p[0] + std::cos(b) * p[2]};
+    }
+    narrow += on_hull(points, far_points(points, {0, 1, 2})) > 0 ? 1 : 0;
+    EXPECT_EQ(on_hull(points, far_points_all_round(points, {0, 1, 2})), 0u) << trial;
+  }
+  EXPECT_GT(narrow, 0u);
 }
 
 TEST(FacetCavities, RestoreTheMeshIfTheyGiveUp) {
