@@ -166,7 +166,7 @@ CutPolygon cut_polygon(std::span<const Point> vertices, std::span<const Index> g
     return {std::move(triangles), level.deviation()};
   const std::size_t axis = level.axis();
   triangles = triangles_across(places, walk, axis, poll);
-  for (std::size_t k = 1; k < 3 && triangles.empty() && !level.flat(); ++k)
+  for (std::size_t k = 1; k < 3 && triangles.empty() && !level.near_in_file(); ++k)
     triangles = triangles_across(places, walk, (axis + k) % 3, poll);
   if (!triangles.empty()) return {std::move(triangles), level.deviation()};
   triangles = by_least_area(places, walk, poll);

@@ -326,7 +326,7 @@ TEST_F(Polygons, RoundingToSixDigitsOrSinglePrecisionNeedsNoTolerance) {
 }
 
 // Seen along z, two corners coincide.
-TEST_F(Polygons, NearlyPlaneButFoldedAreCutAsSeenFromElsewhere) {
+TEST_F(Polygons, NearlyPlaneButFoldedBecomeTrianglesOfLeastArea) {
   const std::vector<Point> points{{0, 0, 0}, {2, 0, 0}, {2, 0, 1e-6}, {1, 0, 2e-6}, {0, 2, 0}};
   const Surface s = read(off_of(points, {0, 1, 2, 3, 4}), "a.off");
   EXPECT_EQ(s.facets.size(), 3u);
