@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 
+#include "repair/cut_facet.h"
 #include "repair/derived_facets.h"
 #include "repair/led_sides.h"
 #include "repair/part_facets.h"
@@ -33,21 +34,30 @@ void name_places(State& state) {
   rename(state.segments);
 }
 
+/// A facet in no patch, cut with its sides. A fan from a corner would fold where a side bends by more than a
+/// triangle of the fan is wide.
+std::vector<Triangle> cut_with_sides(const PartFacets& facets, const LedSides& sides, Index f,
+                                     const Step& step) {
+  const Triangle& corners = facets.corners(f);
+  if (!facets.plane(f) || sides.round(corners).size() == corners.size()) return {corners};
+  std::vector<Triangle> pieces;
+  for (const Cell& cell : cut_facet(facets, sides, f, {}, {}, step))
+    pieces.insert(pieces.end(), cell.triangles.begin(), cell.triangles.end());
+  return pieces;
+}
+
 void deliver(const PartFacets& facets_of_parts, const LedSides& sides, const Patches& patches,
-             const std::vector<Pasted>& pasted, State& state) {
+             const std::vector<Pasted>& pasted, const Step& step, State& state) {
   std::map<Index, std::vector<const Pasted*>> of_patch;  // by first facet
   for (const Pasted& p : pasted) of_patch[p.facets[0]].push_back(&p);
   DerivedFacets facets(state);
-  std::vector<Triangle> pieces;
   for (Index f = 0; f < state.facets.size(); ++f) {
     if (patches.of[f] != no_index) {
       if (const auto own = of_patch.find(f); own != of_patch.end())
         for (const Pasted* p : own->second) facets.add(p->corners, p->facets);
       continue;
     }
-    pieces.assign(1, state.facets[f]);
-    if (facets_of_parts.plane(f)) pieces = sides.split(state.facets[f]);
-    for (const Triangle& t : pieces) facets.add(t, std::array{f});
+    for (const Triangle& t : cut_with_sides(facets_of_parts, sides, f, step)) facets.add(t, std::array{f});
   }
   std::move(facets).move_to(state);
   state.doubt_all();
@@ -64,7 +74,7 @@ double fuse(State& state, std::span<const Index> part, double gap, double roundi
   const LedSides sides(facets, patches.close, gap, state.vertices, step);
   double most = sides.most();
   const std::vector<Pasted> pasted = paste(facets, sides, patches, gap, rounding, step, most);
-  deliver(facets, sides, patches, pasted, state);
+  deliver(facets, sides, patches, pasted, step, state);
   return most == 0 ? 0 : std::nextafter(2 * most * (1 + 0x1p-30), std::numeric_limits<double>::infinity());
 }
 

@@ -290,6 +290,24 @@ class PasteTest(CliTest):
             self.assertAlmostEqual(found[1] + found[2], 8, places=9)
             self.assertAlmostEqual(found[1], volume(parts[0]), delta=0.001)
 
+    def test_flat_ends_of_a_plug_whose_rim_bends_are_not_folded(self):
+        """Ends of triangles with two sides on the rim: fans of these, from a corner, were folded, and the plug became open."""
+        sides, sagitta = 20, 1 - math.cos(math.pi / 20)
+        hole = cylinder(1, 0, 2, sides)
+        points, triangles = cylinder(1, 0.1, 1.9, sides, turn=0.03)
+        del points[2 * sides:], triangles[2 * sides:]
+        for k in range(1, sides - 1):
+            triangles += [(0, k + 1, k), (sides, sides + k, sides + k + 1)]
+        plug = points, triangles
+        names = self.parts(plug, ring(hole, box((-2, -2, -1), (2, 2, 3), 2)))
+        for tolerance in 1.1 * sagitta, 2 * sagitta:
+            points, _, tets, _, _ = self.mesh(names, f"--paste={tolerance}")
+            found = volumes(points, tets)
+            self.assertAlmostEqual(found[1], volume(plug), delta=0.15)
+            self.assertAlmostEqual(found[2], 64 - volume(hole), delta=0.15)
+        self.run_program("paste", *names, "-o", "pasted.off", "--parents", "p.txt", "--report", "p.json", "--tolerance", str(tolerance))
+        self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
+
     def test_a_poly_has_seeds_of_the_parts_regions(self):
         far = box((10, 0, 0), (11, 1, 1), 1)
         wall = box((1, 2, 1), (2, 3, 2), 2)
@@ -384,7 +402,7 @@ class PasteTest(CliTest):
     def test_a_part_that_is_as_small_as_coordinates_are_rounded_opens_another(self):
         """It used to be open, and the mesher then reported triangles outside every region."""
         e = 2.0**-23
-        names = self.parts(box((0, 0, 0), (1, 1, 1), 1), box((1 - 4 * e, 1 - 4 * e, 1 + e), (1 - 3 * e, 1 - 3 * e, 1 + 2 * e), 1))
+        names = self.parts(box((0, 0, 0), (1, 1, 1), 1), box((1 + 3 * e, 1, 1 - 4 * e), (1 + 4 * e, 1 + e, 1 - 3 * e), 1))
         for ended in (self.run_program("mesh", *names, "-o", "x.mesh", "--paste", "--overlap", "first", expect=7),
                       self.run_program("paste", *names, "-o", "x.mesh", "--overlap", "first", "--report", "r.json", expect=7)):
             self.assertIn("a.off was closed, and is not once it is brought together within 4.77e-07 of the others, as near as "
