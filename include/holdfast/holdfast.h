@@ -32,7 +32,9 @@ enum class Stage {
 
 /// Which regions stay in the volume.
 enum class Keep {
-  automatic,  ///< winding number where the surface is consistently oriented, else every bounded region
+  /// By winding number where the surface is consistently oriented, with the regions of seeds; else every
+  /// bounded region.
+  automatic,
   bounded,    ///< every bounded region
   winding,    ///< bounded regions of non-zero winding number
   box,        ///< everything up to an enclosing box

@@ -101,7 +101,8 @@ def mesh(
     quality
         Effort for the elements with field points: "fast", "good" or "best".
     keep
-        "auto" (by winding number if the surface is consistently oriented, otherwise every bounded region), "bounded",
+        "auto" (by winding number if the surface is consistently oriented, and with the regions of seeds; otherwise every
+        bounded region), "bounded",
         "winding" or "box" (everything up to a box, `box_margin` of the largest extent away: 0.1 unless given).
     holes
         (x, y, z) of points in regions to leave empty.

@@ -79,6 +79,9 @@ class Chooser {
       return;
     }
     for (RegionId r = 1; r < regions_.count; ++r) kept_.region[r] = winding.number[r] != 0;
+    if (wanted_.keep == Keep::winding) return;
+    for (const RegionSeed& seed : wanted_.seeds)
+      kept_.region[region_at(seed.where, "region seed")] = true;  // never that outside
   }
 
   void apply_parts() {

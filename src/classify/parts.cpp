@@ -118,9 +118,13 @@ Holders find_holders(const Regions& regions, const PartsOfComplex& parts, Keep k
     const PastedPart& part = parts.parts[p];
     const Alone alone(regions, parts, p, by_part.facets[p], airs.of(p));
     std::vector<bool> held = alone.held(keep, holders);
-    for (const Point& hole : part.holes) held[alone[find(hole, "hole")]] = false;
     std::vector<std::optional<int>> ids(held.size());
-    for (const RegionSeed& seed : part.seeds) ids[alone[find(seed.where, "region seed")]] = seed.id;
+    for (const RegionSeed& seed : part.seeds) {
+      const RegionId r = alone[find(seed.where, "region seed")];
+      ids[r] = seed.id;
+      if (keep == Keep::automatic && r != 0) held[r] = true;
+    }
+    for (const Point& hole : part.holes) held[alone[find(hole, "hole")]] = false;
     for (RegionId r = 1; r < regions.count; ++r)
       if (held[alone[r]]) holders.of_region[r].push_back({p, ids[alone[r]]});
   }

@@ -329,6 +329,18 @@ class PasteTest(CliTest):
         self.run_program("paste", *names, "-o", "parts.off")  # which has no place for seeds, and needs none
         self.run_program("paste", *names, "-o", "parts.poly", "--time-limit", "1e-9", expect=5)
 
+    def test_a_poly_of_a_part_in_a_hollow_of_another_is_meshed_by_its_seeds(self):
+        """The interface faces into the hollow, as in the first file, so that the winding number there is 0."""
+        hollow = ring(box((1, 1, 1), (2, 2, 2), 2), box((0, 0, 0), (3, 3, 3), 3))
+        names = self.parts(hollow, box((1, 1, 1), (2, 2, 2), 3))
+        self.run_program("paste", *names, "-o", "parts.poly")
+        points, _, tets, _, _ = self.mesh(["parts.poly"])
+        self.assertEqual({r: round(v, 12) for r, v in volumes(points, tets).items()}, {1: 26, 2: 1})
+        # As a part in its turn: its seeds are those of its regions.
+        write_off(self.folder / "lid.off", box((0, 0, 3), (3, 3, 4), 2))
+        points, _, tets, _, _ = self.mesh(["parts.poly", "lid.off"], "--paste")
+        self.assertEqual({r: round(v, 12) for r, v in volumes(points, tets).items()}, {1: 26, 2: 1, 3: 9})
+
     def test_three_parts_round_an_edge_cut_differently(self):
         parts = [as_float32(rotated(wedge(*w))) for w in ((0, 120, 1, 3), (120, 240, 1, 5), (240, 360, 1, 4))]
         self.require_pasted(parts, "--paste", interfaces={(1, 2): 1, (2, 3): 1, (1, 3): 1}, places=6)

@@ -332,11 +332,24 @@ TEST(Seeds, MustSuit) {
   options.regions = {{{0.5, 0.5, 0.5}, 1}, {{0.25, 0.5, 0.5}, 2}};
   EXPECT_TRUE(contains(complaint(scene, options), "id 2"));
   options.regions = {{{1.5, 1.5, 1.5}, 1}};
+  options.keep = Keep::winding;
   EXPECT_TRUE(contains(complaint(scene, options), "not kept"));
+  options.keep = Keep::automatic;
   options.regions = {{{4, 1.5, 1.5}, 1}};
   EXPECT_TRUE(contains(complaint(scene, options), "no bounded region"));
   options.regions = {{{3, 1.5, 1.5}, 1}};
   EXPECT_TRUE(contains(complaint(scene, options), "on the surface"));
+}
+
+TEST(Seeds, KeepTheirRegionsWhateverTheWindingNumber) {
+  const Classified scene(small::nested(false));
+  Options options;
+  EXPECT_EQ(scene.choose(options).region, (Flags{false, true, false}));
+  options.regions = {{{1.5, 1.5, 1.5}, 5}};
+  const Kept kept = scene.choose(options);
+  EXPECT_EQ(kept.region, (Flags{false, true, true}));
+  EXPECT_EQ(kept.id, (Ids{0, 1, 5}));
+  EXPECT_EQ(kept.rule, Keep::winding);
 }
 
 TEST(Seeds, AreInTheUnitsOfTheComplex) {
