@@ -12,6 +12,7 @@
 #include "exact/predicates.h"
 #include "holdfast/seeds.h"
 #include "mesh/disjoint_sets.h"
+#include "numbers/random.h"
 #include "numbers/sorted.h"
 #include "numbers/vector.h"
 
@@ -39,7 +40,7 @@ class Pieces {
   }
 
   /// For each piece that does not reach the box: a point in its roundest tetrahedron, and its region. A piece
-  /// without a tetrahedron that surely holds a point is left out.
+  /// in which no double is found is left out.
   [[nodiscard]] std::vector<RegionSeed> seeds() {
     std::vector<std::optional<RegionSeed>> of_root(volume_.tetrahedra.size());
     std::vector<double> best(volume_.tetrahedra.size(), 0);
@@ -53,6 +54,7 @@ class Pieces {
       best[root] = room;
       of_root[root] = RegionSeed{middle, volume_.regions[t]};
     }
+    seed_thin_pieces(of_root);
     std::vector<RegionSeed> seeds;
     for (const auto& seed : of_root)
       if (seed) seeds.push_back(*seed);
@@ -60,6 +62,17 @@ class Pieces {
   }
 
  private:
+  /// Of pieces whose tetrahedra are so thin that rounding puts their middles outside.
+  void seed_thin_pieces(std::vector<std::optional<RegionSeed>>& of_root) {
+    constexpr int kMostTetrahedra = 64;  // of a piece: seconds at most, if pieces are many
+    std::vector<int> tried(of_root.size(), 0);
+    for (Index t = 0; t < volume_.tetrahedra.size(); ++t) {
+      const Index root = sets_.root(t);
+      if (is_outside_[root] != 0 || of_root[root] || tried[root]++ == kMostTetrahedra) continue;
+      if (const std::optional<Point> found = any_point_in(t)) of_root[root] = {*found, volume_.regions[t]};
+    }
+  }
+
   [[nodiscard]] Triangle face(Index t, std::size_t opposite) const {
     const Tetrahedron& corners = volume_.tetrahedra[t];
     return ascending(
@@ -76,11 +89,27 @@ class Pieces {
     return std::fabs(dot(cross(u, v), w)) / most;
   }
 
-  [[nodiscard]] Point middle_of(Index t) const {
-    Point middle{};
+  [[nodiscard]] Point middle_of(Index t) const { return mean_of(t, {0.25, 0.25, 0.25, 0.25}); }
+
+  [[nodiscard]] Point mean_of(Index t, const std::array<double, 4>& weights) const {
+    Point mean{};
     for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 3; ++k) middle[k] += at(t, i)[k] / 4;
-    return middle;
+      for (std::size_t k = 0; k < 3; ++k) mean[k] += weights[i] * at(t, i)[k];
+    return mean;
+  }
+
+  /// Where a tetrahedron is a tenth of a last bit thin, one of about ten points in it rounds to one in it.
+  [[nodiscard]] std::optional<Point> any_point_in(Index t) const {
+    constexpr int kTrials = 1000;
+    numbers::Random random(t);
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::array<double, 4> weights{};
+      double sum = 0;
+      for (double& w : weights) sum += w = static_cast<double>(random() >> 40u);
+      for (double& w : weights) w /= sum;
+      if (const Point p = mean_of(t, weights); holds(t, p)) return p;
+    }
+    return std::nullopt;
   }
 
   /// Exact, for vertices that are doubles.
