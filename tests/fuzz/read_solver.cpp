@@ -1,7 +1,7 @@
 // Arbitrary bytes as a volume of a solver's format: read, or refused with a FileError; a volume that is read
 // is in range, and can be written and read again in a format that holds everything.
 //
-// The first byte chooses the format, the rest is the file.
+// The first byte chooses the format, the rest is the file (or files, if a format needs several).
 #include <array>
 
 #include "bytes.h"
@@ -11,9 +11,23 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<const char*, 16> kFormats{".inp", ".unv", ".bdf", ".su2",  ".mfem", ".vol",
-                                               ".vtm", ".msh", ".exo", ".cgns", ".med",  ".fluent",
-                                               ".k",   ".cdb", ".feb", ".xml"};
+constexpr std::array<std::array<const char*, 2>, 17> kFormats{{{".inp"},
+                                                               {".unv"},
+                                                               {".bdf"},
+                                                               {".su2"},
+                                                               {".mfem"},
+                                                               {".vol"},
+                                                               {".vtm"},
+                                                               {".msh"},
+                                                               {".exo"},
+                                                               {".cgns"},
+                                                               {".med"},
+                                                               {".fluent"},
+                                                               {".k"},
+                                                               {".cdb"},
+                                                               {".feb"},
+                                                               {".xml"},
+                                                               {".case", ".geo"}}};
 
 bool finite(const std::vector<Point>& points) {
   return std::all_of(points.begin(), points.end(), [](const Point& p) {
@@ -32,12 +46,12 @@ void require_in_range(const Entities& entities, std::size_t count) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::Folder folder;
   fuzz::Bytes bytes(data, size);
-  const char* const format = kFormats[bytes.below(kFormats.size())];
+  const auto& format = kFormats[bytes.below(kFormats.size())];
   folder.empty();
-  folder.write_parts(bytes.text(), {&format, 1u});
+  folder.write_parts(bytes.text(), {format.data(), format[1] == nullptr ? 1u : 2u});
   Volume volume;
   try {
-    volume = read_volume(folder / (std::string("a") + format));
+    volume = read_volume(folder / (std::string("a") + format[0]));
   } catch (const FileError&) {
     return 0;
   }

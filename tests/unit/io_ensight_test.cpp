@@ -1,6 +1,7 @@
 // EnSight Gold: a case and its geometry file.
 #include <gtest/gtest.h>
 
+#include "ensight_samples.h"
 #include "io_volumes.h"
 
 namespace holdfast {
@@ -8,35 +9,20 @@ namespace {
 
 using namespace samples;
 
-const std::string kCase = "# by hand\nFORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: a.geo\n\nVARIABLE\n";
-
-/// Two tetrahedra in a part each, and a part of their common face.
-const std::string kGeo =
-    "two tetrahedra\n\nnode id given\nelement id off\nextents\n 0 1\n 0 1\n 0 1\npart\n         "
-    "3\nupper\ncoordinates\n"
-    "         4\n 10\n 20\n 30\n 40\n 0.00000e+00\n 1\n 0\n 0\n 0\n 0\n 1\n 0\n 0\n 0\n 0\n 1\ntetra4\n      "
-    "   1\n"
-    "         1         2         3         4\npart\n         7\nlower\ncoordinates\n         4\n 10\n 30\n "
-    "20\n 50\n 0\n 0\n 1\n 0\n 0\n"
-    " 1\n 0\n 0\n 0\n 0\n 0\n -1\ntetra4\n         1\n         1         2         3         4\ng_tetra4\n   "
-    "      1\n 1 2 3 4\n"
-    "part\n         9\n\ncoordinates\n         3\n 1\n 2\n 3\n 0\n 1\n 0\n 0\n 0\n 1\n 0\n 0\n 0\ntria3\n    "
-    "     1\n 1 2 3\npoint\n 1\n 1\n";
-
 Volume read(const std::string& geometry, std::vector<Remark>* remarks = nullptr,
-            const std::string& text = kCase) {
+            const std::string& text = kEnsightCase) {
   const TemporaryFolder folder;
   put(folder / "a.case", text);
   put(folder / "a.geo", geometry);
   return read_volume(folder / "a.case", ReadOptions{}, remarks);
 }
-std::string error(const std::string& geometry, const std::string& text = kCase) {
+std::string error(const std::string& geometry, const std::string& text = kEnsightCase) {
   return refusal_of([&] { return read(geometry, nullptr, text); });
 }
 
 TEST(Ensight, PartsAreRegionsAndMarkers) {
   std::vector<Remark> remarks;
-  const Volume found = read(kGeo, &remarks);
+  const Volume found = read(kEnsightGeo, &remarks);
   EXPECT_EQ(found.vertices.size(), 5U);
   EXPECT_EQ(found.tetrahedra, (std::vector<Tetrahedron>{{0, 1, 2, 3}, {0, 2, 1, 4}}));
   EXPECT_EQ(found.regions, (std::vector<int>{3, 7}));
@@ -48,29 +34,9 @@ TEST(Ensight, PartsAreRegionsAndMarkers) {
   EXPECT_EQ(remarks[1].message, "1 ghost cell is left out");
 }
 
-/// The first part, in binary.
-std::string binary(bool big) {
-  const auto text = [](std::string line) {
-    line.resize(80, '\0');
-    return line;
-  };
-  std::string bytes = text("C Binary") + text("a") + text("b") + text("node id off") +
-                      text("element id given") + text("part") + raw(std::int32_t{2}, big) + text("all\n") +
-                      text("coordinates") + raw(std::int32_t{8}, big);
-  for (const float x : {0.F, 1.F, 1.F, 0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 0.F, 1.F, 1.F,
-                        0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 0.F, 0.F, 1.F, 1.F, 1.F, 1.F})
-    bytes += raw(x, big);
-  bytes += text("hexa8") + raw(std::int32_t{1}, big) + raw(std::int32_t{77}, big);
-  for (std::int32_t i = 1; i <= 8; ++i) bytes += raw(i, big);
-  bytes +=
-      text("nsided") + raw(std::int32_t{1}, big) + raw(std::int32_t{78}, big) + raw(std::int32_t{4}, big);
-  for (const std::int32_t i : {5, 6, 7, 8}) bytes += raw(i, big);
-  return bytes;
-}
-
 TEST(Ensight, BinaryInBothByteOrders) {
   for (const bool big : {false, true}) {
-    const Volume found = read(binary(big));
+    const Volume found = read(binary_ensight(big));
     EXPECT_EQ(found.tetrahedra.size(), 6U);
     EXPECT_EQ(found.facets, (std::vector<Triangle>{{4, 5, 6}, {4, 6, 7}}));
     EXPECT_EQ(found.names.facets, (std::map<int, std::string>{{2, "all"}}));
@@ -82,7 +48,7 @@ TEST(Ensight, TheFileOfTheFirstStep) {
   put(folder / "b.case",
       "FORMAT\ntype:  ensight gold\nGEOMETRY\nmodel: 1 \"b.***.geo\"\nTIME\ntime set: 1\nnumber of steps: 2\n"
       "filename start number: 5\nfilename increment: 1\n");
-  put(folder / "b.005.geo", kGeo);
+  put(folder / "b.005.geo", kEnsightGeo);
   EXPECT_EQ(read_volume(folder / "b.case").tetrahedra.size(), 2U);
   EXPECT_EQ(files_of_volume(folder / "b.case").size(), 2U);
   EXPECT_EQ(files_of_surface(folder / "b.case")[1].filename(), "b.005.geo");
@@ -90,13 +56,13 @@ TEST(Ensight, TheFileOfTheFirstStep) {
 
 TEST(Ensight, ErrorsNameTheLine) {
   const auto with = [](std::string_view old, const std::string& replacement) {
-    std::string text = kGeo;
+    std::string text = kEnsightGeo;
     text.replace(text.find(old), old.size(), replacement);
     return error(text);
   };
-  EXPECT_EQ(error(kGeo, "FORMAT\ntype: ensight\nGEOMETRY\nmodel: a.geo\n"),
+  EXPECT_EQ(error(kEnsightGeo, "FORMAT\ntype: ensight\nGEOMETRY\nmodel: a.geo\n"),
             "line 2: a case of EnSight 6 or 5; only EnSight Gold is read");
-  EXPECT_EQ(error(kGeo, "(2 3)\n"), "the case names no geometry (model: FILE); is it one of EnSight?");
+  EXPECT_EQ(error(kEnsightGeo, "(2 3)\n"), "the case names no geometry (model: FILE); is it one of EnSight?");
   EXPECT_EQ(error("Fortran Binary  "), "in Fortran's binary; save it in C's binary or as text");
   EXPECT_EQ(with("node id given", "nodes"), "line 3: expected 'node id', found 'nodes'");
   EXPECT_EQ(with("coordinates", "block"),
@@ -105,9 +71,9 @@ TEST(Ensight, ErrorsNameTheLine) {
   EXPECT_EQ(with("         4\n 10", "4000000000\n 10").substr(0, 8), "line 13:");
   EXPECT_EQ(with("         1         2         3         4", " 1 2 3 5"),
             "line 32: names node 5, but the part has 4");
-  EXPECT_EQ(error(kGeo.substr(0, kGeo.find("tetra4") + 7)),
+  EXPECT_EQ(error(kEnsightGeo.substr(0, kEnsightGeo.find("tetra4") + 7)),
             "line 31: the file ends where the number of elements is expected; it is truncated");
-  const std::string bytes = binary(false);
+  const std::string bytes = binary_ensight(false);
   EXPECT_EQ(error(bytes.substr(0, bytes.size() - 2)),
             "byte 952: a number of corners is 4, but only 14 bytes follow; the file is truncated or damaged");
 }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "dae_samples.h"
+#include "ensight_samples.h"
 #include "gltf_samples.h"
 #include "io/formats.h"
 #include "io_archive_samples.h"
@@ -203,6 +204,49 @@ TEST(Hostile, TetgenFilesBesideOneAnother) {
     put(folder / names[which], originals[which]);
   }
   EXPECT_EQ(read_volume(folder / "a.node").tetrahedra, sample_volume().tetrahedra);
+}
+
+/// Reads a.case and the geometry that it names; whether the volume or the surface is read.
+bool parses_ensight(const TemporaryFolder& folder) {
+  const std::filesystem::path path = folder / "a.case";
+  bool success = false;
+  for (const bool as_volume : {false, true}) {
+    try {
+      if (as_volume)
+        static_cast<void>(read_volume(path));
+      else
+        static_cast<void>(read_surface(path));
+      success = true;
+    } catch (const FileError& error) {
+      EXPECT_GT(std::string(error.what()).size(), path.string().size() + 2);
+    }
+  }
+  return success;
+}
+
+TEST(Hostile, EnsightFilesBesideOneAnother) {
+  const TemporaryFolder folder;
+  std::size_t parsed = 0, total = 0;
+  for (const std::string& geometry : {kEnsightGeo, binary_ensight(false), binary_ensight(true)}) {
+    put(folder / "a.case", kEnsightCase);
+    for (std::size_t size = 0; size < geometry.size(); size += 1 + geometry.size() / 100) {
+      put(folder / "a.geo", geometry.substr(0, size));
+      parses_ensight(folder);
+    }
+    for (int seed = 0; seed < 100; ++seed, ++total) {
+      std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+      put(folder / "a.geo", mutated(geometry, random));
+      parsed += parses_ensight(folder) ? 1u : 0u;
+    }
+    put(folder / "a.geo", geometry);
+    for (int seed = 0; seed < 30; ++seed) {
+      std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+      put(folder / "a.case", mutated(kEnsightCase, random));
+      parses_ensight(folder);
+    }
+  }
+  EXPECT_GT(parsed, total / 20);
+  EXPECT_LT(parsed, total - total / 20);
 }
 
 TEST(Hostile, CountsBeyondTheFile) {
