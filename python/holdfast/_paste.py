@@ -59,6 +59,48 @@ class Pasted:
         found: dict[str, Any] = json.loads((self._volumes or self._result).report())
         return found
 
+    def with_seeds(
+        self,
+        *,
+        threads: int = 1,
+        time_limit: Optional[float] = None,
+        memory_limit: Optional[MemoryAmount] = None,
+        cancel: Optional[CancelToken] = None,
+        progress: Progress = None,
+    ) -> Surface:
+        """The surface with a point in each piece of the parts' regions (`regions`), and one in each space that the parts
+        enclose and none contains (`holes`), as `holdfast paste -o NAME.poly` writes them. A mesh of it has the parts'
+        regions, also by other programs that take such points. The points are found by a mesh.
+
+        Parameters
+        ----------
+        threads, time_limit, memory_limit, cancel, progress
+            As in `mesh`.
+
+        Raises
+        ------
+        TimeLimit, MemoryLimit, Cancelled
+            As `mesh` does.
+        ValueError
+            If the parts are meshes: the regions are those of `mesh`.
+
+        Example
+        -------
+        >>> import holdfast
+        >>> quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        >>> triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+        >>> def box(x0, x1):
+        ...     return [(x, y, z) for x in (x0, x1) for y in (0, 1) for z in (0, 1)], triangles
+        >>> sorted(id for x, y, z, id, size in holdfast.paste(box(0, 1), box(1, 3)).with_seeds().regions)
+        [1, 2]
+        """
+        if self._volumes is not None:
+            raise ValueError("the parts are meshes, whose regions are in `mesh`; points in regions are for surfaces")
+        options = limits(time_limit, memory_limit, cancel)
+        options["threads"] = threads_of(threads)
+        with Shown(progress, "seeds") as callback:
+            return _of_data(_core.with_seeds(self._result, options, callback))
+
     def __repr__(self) -> str:
         return (f"Pasted({counted(len(self.regions), 'part')}, {counted(len(self.surface.points), 'point')}, "
                 f"{counted(len(self.surface.triangles), 'triangle')})")

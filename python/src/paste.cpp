@@ -14,6 +14,7 @@
 #include "arrays.h"
 #include "holdfast/io.h"
 #include "holdfast/names.h"
+#include "holdfast/seeds.h"
 #include "limits.h"
 #include "named.h"
 #include "register.h"
@@ -94,6 +95,17 @@ std::shared_ptr<PastedVolumes> paste_meshes(const std::vector<std::shared_ptr<Vo
   return std::make_shared<PastedVolumes>(paste(volumes, how, names));
 }
 
+std::shared_ptr<Surface> surface_with_seeds(const PasteResult& pasted, const py::dict& options,
+                                            const py::object& progress) {
+  const Watch watch(progress);
+  Options how;
+  take_limits(options, how);
+  take(options, "threads", how.threads);
+  how.progress = [&watch](const Progress& at) { return watch.go_on(name(at.stage), at.overall); };
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<Surface>(with_seeds(pasted, how));
+}
+
 void register_volumes(py::module_& module) {
   py::class_<PastedVolumes, std::shared_ptr<PastedVolumes>>(module, "PastedVolumes")
       .def_property_readonly("outcome", [](const PastedVolumes& r) { return static_cast<int>(r.outcome); })
@@ -170,6 +182,7 @@ void register_paste(py::module_& module) {
       .def(pickled<PasteResult>());
   module.def("paste", &paste_parts);
   module.def("join_parts", &join_parts);
+  module.def("with_seeds", &surface_with_seeds);
   register_volumes(module);
 }
 

@@ -85,6 +85,36 @@ def test_copies_and_pickling_of_meshes(again):
     assert holdfast.check(other.surface, other.mesh)
 
 
+def test_a_surface_with_seeds_is_meshed_by_them(tmp_path):
+    outer, hole = box(0, 3, 3), box(1, 2, 2)
+    outer[0][:, 1:] *= 3
+    hole[0][:, 1:] += 1
+    hollow = np.vstack([outer[0], hole[0]]), np.vstack([outer[1], hole[1][:, ::-1] + len(outer[0])])
+    plug = box(1, 2, 3)
+    plug[0][:, 1:] += 1
+    plug[0][:, 2] = 1 + (plug[0][:, 2] - 1) / 2  # fills half of the hollow
+    pasted = holdfast.paste(hollow, plug, names=["body", "plug"])
+    seeded = pasted.with_seeds(threads=2)
+    assert sorted(id for *_, id, _ in seeded.regions) == [1, 2] and len(seeded.holes) == 1
+    assert 1.5 < seeded.holes[0][2] < 2
+    assert np.array_equal(seeded.points, pasted.surface.points) and np.array_equal(seeded.triangles, pasted.surface.triangles)
+    assert pasted.surface.regions == [] and pasted.surface.holes == []
+    assert volumes(holdfast.mesh(seeded, fill=True)) == pytest.approx({1: 26, 2: 0.5})
+    for name, (points, triangles) in (("body", hollow), ("plug", plug)):
+        write_off(tmp_path / f"{name}.off", points, triangles)
+    subprocess.run([program(), "paste", "body.off", "plug.off", "-o", "both.poly", "-q"], cwd=tmp_path, check=True)
+    of_program = holdfast.read_surface(tmp_path / "both.poly")
+    assert of_program.regions == seeded.regions and of_program.holes == seeded.holes
+    with pytest.raises(holdfast.TimeLimit):
+        pasted.with_seeds(time_limit=1e-9)
+    with pytest.raises(holdfast.Cancelled):
+        pasted.with_seeds(progress=lambda stage, fraction: False)
+    mesh = holdfast.mesh(*plain_box(), fill=True)
+    other = holdfast.mesh(plain_box()[0] + [1, 0, 0], plain_box()[1], fill=True)
+    with pytest.raises(ValueError, match="the parts are meshes"):
+        holdfast.paste(mesh, other).with_seeds()
+
+
 def test_parts_may_be_in_a_list():
     a, b = box(0, 1, 2), box(1, 3, 3)
     listed, apart = holdfast.paste([a, b], names=["left", "right"]), holdfast.paste(a, b, names=["left", "right"])
