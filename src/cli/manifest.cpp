@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <fstream>
+#include <map>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "limits.h"
@@ -18,38 +21,55 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& reason) { throw FileError(path, "", reason); }
 
+/// A member of an object of the manifest; errors name it.
+template <class Value>
+Value value_in(const fs::path& manifest, const Json& json, const std::string& key) {
+  try {
+    return json.at(key).get<Value>();
+  } catch (const Json::exception&) {
+    fail(manifest,
+         fmt::format("\"{}\" is missing or damaged; `holdfast split` writes the manifest anew", key));
+  }
+}
+
 /// A name within the folder: a foreign manifest must not lead to files elsewhere.
 fs::path name_in(const fs::path& manifest, const Json& json, const char* key) {
-  const fs::path name = json.at(key).get<std::string>();
+  const fs::path name = value_in<std::string>(manifest, json, key);
   if (name.empty() || name.has_parent_path() || name == "." || name == "..")
     fail(manifest, fmt::format("\"{}\": {} is no name of a file in this folder", key, name.string()));
   return name;
 }
 
-void read_names(const Json& json, Names& names) {
-  const auto read = [&](const char* key, std::map<int, std::string>& into) {
-    if (!json.contains(key)) return;
-    for (const auto& [id, name] : json.at(key).items()) into[std::stoi(id)] = name.get<std::string>();
-  };
-  read("facets", names.facets);
-  read("regions", names.regions);
-  read("segments", names.segments);
-  read("vertices", names.vertices);
+std::map<int, std::string> names_in(const fs::path& manifest, const Json& json, const char* key) {
+  std::map<int, std::string> names;
+  if (!json.contains(key)) return names;
+  for (const auto& [text, name] : value_in<std::map<std::string, std::string>>(manifest, json, key)) {
+    int id = 0;
+    const char* const end = text.data() + text.size();
+    if (const auto [rest, error] = std::from_chars(text.data(), end, id); error != std::errc() || rest != end)
+      fail(manifest, fmt::format("\"names\", \"{}\": {} is no id, which is an integer", key, text));
+    names[id] = name;
+  }
+  return names;
 }
 
 Manifest parse(const fs::path& folder, const fs::path& path, const Json& json) {
-  if (json.at("format") != "holdfast division" || json.at("version") != 1)
+  if (value_in<std::string>(path, json, "format") != "holdfast division" ||
+      value_in<int>(path, json, "version") != 1)
     fail(path, "this is no manifest that this program knows; `holdfast split` writes one");
   Manifest manifest;
   manifest.folder = folder;
-  manifest.surface = name_in(path, json.at("surface"), "file");
-  manifest.checksum = json.at("surface").at("crc32").get<std::string>();
-  manifest.interface_marker = json.at("interface_marker").get<int>();
-  manifest.outside_dropped = json.at("options").at("drop_outside").get<bool>();
-  read_names(json.at("names"), manifest.names);
-  for (const Json& part : json.at("parts"))
-    manifest.parts.push_back(
-        {name_in(path, part, "surface"), name_in(path, part, "volume"), part.at("crc32").get<std::string>()});
+  const Json surface = value_in<Json>(path, json, "surface");
+  manifest.surface = name_in(path, surface, "file");
+  manifest.checksum = value_in<std::string>(path, surface, "crc32");
+  manifest.interface_marker = value_in<int>(path, json, "interface_marker");
+  manifest.outside_dropped = value_in<bool>(path, value_in<Json>(path, json, "options"), "drop_outside");
+  const Json names = value_in<Json>(path, json, "names");
+  manifest.names = {names_in(path, names, "facets"), names_in(path, names, "regions"),
+                    names_in(path, names, "segments"), names_in(path, names, "vertices")};
+  for (const Json& part : value_in<std::vector<Json>>(path, json, "parts"))
+    manifest.parts.push_back({name_in(path, part, "surface"), name_in(path, part, "volume"),
+                              value_in<std::string>(path, part, "crc32")});
   return manifest;
 }
 
@@ -108,10 +128,9 @@ Manifest read_manifest(const fs::path& folder) {
   if (!in) fail(path, "cannot be opened; `holdfast split` writes such a folder");
   try {
     return parse(folder, path, Json::parse(in));
-  } catch (const Json::exception& error) {
-    fail(path, error.what());
-  } catch (const std::logic_error& error) {
-    fail(path, fmt::format("an id is no number: {}", error.what()));
+  } catch (const Json::parse_error& error) {
+    const std::string text = error.what();  // after its name in brackets
+    fail(path, text.substr(std::min(text.size(), text.find("parse error"))));
   }
 }
 

@@ -223,6 +223,27 @@ class Divided(CliTest):
         self.write("d/manifest.json", "{")
         self.run_program("check", "d", expect=3)
 
+    def test_what_is_damaged_in_a_manifest_is_named(self):
+        self.split("--size", 0.4, parts=2)
+
+        def error(change):
+            damaged = json.loads(json.dumps(self.manifest))
+            change(damaged)
+            self.write("d/manifest.json", json.dumps(damaged))
+            said = {self.run_program(*words, expect=3).stderr for words in (("check", "d"), ("join", "d", "-o", "x.vtu"))}
+            self.assertEqual(len(said), 1)
+            return said.pop().split("manifest.json: ")[1]
+
+        for key in self.manifest:
+            if key in ("format", "version", "surface", "interface_marker", "options", "names", "parts"):
+                self.assertIn(f'"{key}" is missing or damaged', error(lambda m: m.pop(key)))
+        self.assertIn('"interface_marker" is missing or damaged', error(lambda m: m.update(interface_marker="x")))
+        self.assertIn('"crc32" is missing or damaged', error(lambda m: m["parts"][1].pop("crc32")))
+        self.assertIn('"file" is missing or damaged', error(lambda m: m.update(surface=None)))
+        self.assertIn('"facets": x is no id, which is an integer', error(lambda m: m["names"].update(facets={"x": "inlet"})))
+        self.write("d/manifest.json", '{"format": "holdfast division",\n"version": }')
+        self.assertIn("manifest.json: parse error at line 2, column 12", self.run_program("check", "d", expect=3).stderr)
+
     def test_a_manifest_leads_nowhere_else(self):
         self.split("--size", 0.4, parts=2)
         self.manifest["parts"][0]["surface"] = "../cube.off"
