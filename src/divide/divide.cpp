@@ -59,7 +59,8 @@ class Divider {
  private:
   void divide(SurfaceDivision& division) {
     const WantedSize wanted(complex_, tuning::kGradation, coarse_limit());
-    const Bisection cells(work(wanted), options_.parts);
+    const std::size_t parts = sensible_parts(wanted);
+    const Bisection cells(work(wanted, parts), parts);
     coarse_ = {};
     const Result fine = mesh_near(wanted, cells);
     const std::vector<Neighbours> beside = neighbours(fine.volume.tetrahedra);
@@ -122,13 +123,24 @@ class Divider {
     return field;
   }
 
-  // By tetrahedra with little of the work each: the coarse ones may be large compared with the parts.
-  std::vector<division::Work> work(const WantedSize& wanted) const {
+  double expected(const WantedSize& wanted) const {
     double sum = 0;
     for (const Tetrahedron& t : coarse_.tetrahedra) sum += expected(coarse_, t, wanted);
+    return sum;
+  }
+
+  // A part has a tetrahedron at least; without this bound, the work would be cut into pieces without end.
+  std::size_t sensible_parts(const WantedSize& wanted) const {
+    const double sum = expected(wanted);
     require_few_enough(sum / static_cast<double>(options_.parts));
+    return static_cast<double>(options_.parts) <= sum ? options_.parts
+                                                      : static_cast<std::size_t>(std::max(1.0, sum));
+  }
+
+  // By tetrahedra with little of the work each: the coarse ones may be large compared with the parts.
+  std::vector<division::Work> work(const WantedSize& wanted, std::size_t parts) const {
     std::vector<division::Work> result;
-    const double most = sum / (kSamples * static_cast<double>(options_.parts));
+    const double most = expected(wanted) / (kSamples * static_cast<double>(parts));
     for (const Tetrahedron& t : coarse_.tetrahedra)
       add_work(corners_of(coarse_, t), wanted, most, kMostHalvings, result);
     return result;

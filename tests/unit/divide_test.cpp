@@ -154,6 +154,15 @@ TEST(Divide, RefusesWhatMeshRefuses) {
   EXPECT_THROW(static_cast<void>(divide(small::box(), in_parts(0, 0.2))), std::invalid_argument);
 }
 
+TEST(Divide, NoMorePartsThanTetrahedra) {
+  const SurfaceDivision division = divide(small::box(), in_parts(std::size_t{1} << 50u, 0.5));
+  ASSERT_EQ(division.outcome, Outcome::done);
+  double expected = 0;
+  for (const SurfacePart& part : division.parts) expected += part.tetrahedra;
+  EXPECT_LE(static_cast<double>(division.parts.size()), expected);
+  EXPECT_GT(division.parts.size(), 1U);
+}
+
 class FitCheckerTest : public testing::Test {
  protected:
   Surface surface = small::box();
