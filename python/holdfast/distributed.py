@@ -60,12 +60,23 @@ class Division:
 
 
 def read(folder: PathLike) -> Division:
-    """The division in a folder. Raises FileNotFoundError if there is none, ValueError for a manifest of another
-    kind."""
-    manifest = json.loads((Path(folder) / "manifest.json").read_text(encoding="utf-8"))
-    if manifest.get("format") != "holdfast division":
-        raise ValueError(f"{folder}/manifest.json is not one of `holdfast split`")
+    """The division in a folder. Raises FileNotFoundError if there is none, ValueError for a manifest of another kind, or
+    a damaged one."""
+    path = Path(folder) / "manifest.json"
+    try:
+        manifest = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    if not isinstance(manifest, dict) or manifest.get("format") != "holdfast division":
+        raise ValueError(f"{path} is not one of `holdfast split`")
+    parts = manifest.get("parts")
+    if not isinstance(parts, list) or not all(_is_part(part) for part in parts):
+        raise ValueError(f'{path}: "parts" is missing or damaged; `holdfast split` writes the manifest anew')
     return Division(Path(folder), manifest)
+
+
+def _is_part(part: Any) -> bool:
+    return isinstance(part, dict) and all(isinstance(part.get(key), str) for key in ("surface", "volume"))
 
 
 def split(

@@ -59,6 +59,18 @@ def test_what_goes_wrong_is_told(cube, tmp_path):
         holdfast.distributed.read(tmp_path / "e")
 
 
+@pytest.mark.parametrize("text, message", [
+    ("{", "line 1"), ("[]", "is not one of"), ('{"format": "holdfast division"}', '"parts" is missing or damaged'),
+    ('{"format": "holdfast division", "parts": [{"surface": "part_1.poly"}]}', '"parts" is missing or damaged')])
+def test_a_damaged_manifest_is_told(tmp_path, text, message):
+    (tmp_path / "manifest.json").write_text(text)
+    with pytest.raises(ValueError, match=message) as caught:
+        holdfast.distributed.read(tmp_path)
+    assert str(tmp_path / "manifest.json") in str(caught.value)
+    with pytest.raises(holdfast.FileError):
+        holdfast.distributed.check(tmp_path)
+
+
 def test_a_split_that_fails_leaves_what_is_there(cube, tmp_path):
     division = holdfast.distributed.mesh(cube, folder=tmp_path / "d", parts=2, size=0.3)
     with pytest.raises(holdfast.FileError):
