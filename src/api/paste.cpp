@@ -12,6 +12,7 @@
 #include "api/named_parts.h"
 #include "api/part_components.h"
 #include "api/part_details.h"
+#include "api/part_orientation.h"
 #include "api/parts_apart.h"
 #include "api/repairing.h"
 #include "api/turned.h"
@@ -132,6 +133,7 @@ void compare_with_parents(const Complex& joined, std::span<const Index> part, Pa
     }
     if (of.size() > 1) ++result.shared_facets;
   }
+  orient_folds(joined, part, result);
 }
 
 bool is_within(const Complex& joined, double distance, const Step& step, const PasteResult& result) {

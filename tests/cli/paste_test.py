@@ -308,6 +308,20 @@ class PasteTest(CliTest):
         self.run_program("paste", *names, "-o", "pasted.off", "--parents", "p.txt", "--report", "p.json", "--tolerance", str(tolerance))
         self.run_program("check", "--repaired", *names, "pasted.off", "--parents", "p.txt", "--report", "p.json")
 
+    def test_triangles_that_fold_do_not_fill_the_hole_of_their_part(self):
+        """Some are turned against their neighbours by their normals, and a part without winding numbers would hold what it encloses."""
+
+        def tapered(part):
+            return [(x * (1 - 0.1 * z), y * (1 - 0.1 * z), z) for x, y, z in part[0]], part[1]
+
+        hole, plug = tapered(cylinder(1, 0, 2, 6)), tapered(cylinder(1, 0, 2, 8, turn=0.1))
+        names = self.parts(rotated(plug), rotated(ring(hole, box((-2, -2, -1), (2, 2, 3), 1))))
+        points, _, tets, _, ended = self.mesh(names, "--paste=0.275")
+        found = volumes(points, tets)
+        self.assertAlmostEqual(found[1], volume(plug), delta=0.5)
+        self.assertAlmostEqual(found[1] + found[2], 64, places=9)
+        self.assertNotIn("winding numbers", ended.stderr)
+
     def test_a_poly_has_seeds_of_the_parts_regions(self):
         far = box((10, 0, 0), (11, 1, 1), 1)
         wall = box((1, 2, 1), (2, 3, 2), 2)
