@@ -11,6 +11,7 @@
 #include "repair/fins.h"
 #include "repair/ladder.h"
 #include "repair/open_sides.h"
+#include "repair/repeated.h"
 #include "repair/restore.h"
 #include "repair/strips.h"
 #include "surface/places.h"
@@ -22,7 +23,7 @@ namespace {
 /// two used points at the same double. Then the parts of a facet are connected as in the arrangement, where
 /// they cover the facet: their border follows its sides as closely as the points moved.
 bool is_rounded_once(const State& state, const RepairReport& report) {
-  if (report.rounds != 1 || report.rung > Rung::nearest) return false;
+  if (report.rounds > 1 || report.rung > Rung::nearest) return false;
   const std::vector<Index> first = first_at_places(state.vertices);
   return std::all_of(state.facets.begin(), state.facets.end(), [&](const Triangle& t) {
     return std::all_of(t.begin(), t.end(), [&](Index v) { return first[v] == v; });
@@ -41,11 +42,13 @@ class ArrangedRounding {
         step_(step),
         threads_(threads),
         trials_(trials),
+        repeated_(merge_repeated(state)),
         of_given_(std::exchange(state.facet_parents, identity(state.facets.size()))),
         given_(std::move(state)) {}
 
   Rounded run() {
     Rounded rounded = climb();
+    report_.pairs += repeated_;
     if (rounded.is_valid) follow_given(rounded);
     rounded.state.facet_parents = composed(of_given_, std::move(rounded.state.facet_parents));
     return rounded;
@@ -113,6 +116,7 @@ class ArrangedRounding {
   const Step& step_;
   const Threads& threads_;
   const Trials trials_;
+  const std::size_t repeated_;  // facets that were copies of others
   // Facets are compared with the facets before welding, which are parts of the input's.
   const Parents of_given_;
   const State given_;

@@ -140,6 +140,31 @@ TEST(Repair, MovesNoVertexIfThatIsFast) {
   EXPECT_TRUE(repaired.moved.empty());
 }
 
+/// Copies become one facet with the parents of all before anything is cut, whichever vertices they name.
+TEST(Repair, CopiesOfFacetsChangeNothing) {
+  const Surface crossing = together(sphere(6, {0, 0, 0}, 0), sphere(6, {0.7, 0.2, 0.1}, 0.3));
+  const RepairResult once = repair(crossing);
+  Surface own_vertices = together(crossing, crossing), same_vertices = crossing;
+  same_vertices.facets.insert(same_vertices.facets.end(), crossing.facets.begin(), crossing.facets.end());
+  const auto count = static_cast<Index>(crossing.facets.size());
+  for (const Surface& copies : {own_vertices, same_vertices}) {
+    const RepairResult twice = repair(copies);
+    ASSERT_EQ(twice.outcome, Outcome::done);
+    EXPECT_EQ(twice.report.pairs, once.report.pairs + count);
+    EXPECT_EQ(twice.max_displacement, once.max_displacement);
+    ASSERT_EQ(twice.surface.facets.size(), once.surface.facets.size());
+    for (std::size_t f = 0; f < twice.parents.size(); ++f) {
+      for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(twice.surface.vertices[twice.surface.facets[f][i]],
+                  once.surface.vertices[once.surface.facets[f][i]]);
+      std::vector<Index> both(once.parents[f].begin(), once.parents[f].end());
+      for (const Index p : once.parents[f]) both.push_back(p + count);
+      EXPECT_TRUE(std::ranges::equal(twice.parents[f], both));
+    }
+    EXPECT_EQ(twice.merged.size(), count);
+  }
+}
+
 TEST(Repair, ThreadsLeaveTheSameBits) {
   RepairOptions options;
   const RepairResult one = repair(two_spheres(), options);
