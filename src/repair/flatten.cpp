@@ -9,7 +9,6 @@
 
 #include "numbers/sorted.h"
 #include "repair/bounds.h"
-#include "repair/clusters.h"
 #include "repair/flat_cluster.h"
 #include "repair/near.h"
 #include "repair/shared_sides.h"
@@ -302,11 +301,17 @@ Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sid
 }
 
 Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step) {
+  return flatten_all(state, find_clusters(state, gap, {}, step), gap, round, sides, step);
+}
+
+Flattened flatten_all(State& state, const Clusters& clusters, double gap, const RoundPlane& round,
+                      SidesOf sides, const Step& step) {
   constexpr int kPasses = 4;  // flattening one cluster may bring others near
   Flattened all;
   std::vector<Index> some;
   for (int pass = 0; pass < kPasses; ++pass) {
-    Flattened now = flatten(state, gap, round, sides, step, some);
+    Flattened now = pass == 0 ? Flattening(state, gap, round, sides).run(clusters)
+                              : flatten(state, gap, round, sides, step, some);
     all.has_shared |= now.has_shared;
     if (now.moved == 0) break;
     all.moved = sum_above(all.moved, now.moved);

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "repair/clusters.h"
 #include "repair/rounding.h"
 #include "repair/settle.h"
 #include "repair/state.h"
@@ -37,7 +38,9 @@ struct Flattened {
 Flattened flatten(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step,
                   std::span<const Index> some = {});
 
-/// Repeats `flatten` while it changes something, a few times at most.
+/// Repeats `flatten` while it changes something, a few times at most. `clusters`: those of the whole state.
+Flattened flatten_all(State& state, const Clusters& clusters, double gap, const RoundPlane& round,
+                      SidesOf sides, const Step& step);
 Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf sides, const Step& step);
 
 }  // namespace holdfast::repairing

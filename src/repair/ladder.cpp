@@ -1,11 +1,13 @@
 #include "repair/ladder.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "arrange/arrange.h"
+#include "numbers/sorted.h"
 #include "repair/bounds.h"
 #include "repair/exact_surface.h"
 #include "repair/tell_round.h"
@@ -16,6 +18,24 @@ namespace {
 
 // If so many times as many elements are in trouble as before, an attempt is given up.
 constexpr std::size_t kTooMuch = 4;
+
+// A second cut seldom leaves fewer elements in trouble than the first one by this factor.
+constexpr std::size_t kFarFewer = 8;
+
+void add_origins(const State& state, Index facet, std::vector<Index>& origins) {
+  const auto parents = state.facet_parents.of(facet);
+  origins.insert(origins.end(), parents.begin(), parents.end());
+}
+
+/// Facets of one state that the other one has not.
+std::vector<Index> changed_facets(const State& before, const State& now) {
+  arrange::IndexTable<3> all;
+  for (const Triangle& t : now.facets) all.find_or_add(t, 0);
+  std::vector<Index> changed;
+  for (Index f = 0; f < before.facets.size(); ++f)
+    if (all.find(before.facets[f]) == no_entity) changed.push_back(f);
+  return changed;
+}
 
 }  // namespace
 
@@ -51,8 +71,8 @@ void Ladder::begin() {
   if (!is_plane_) {
     const std::size_t much = kMany + new_points_[0];
     trouble_ = trouble_of(rounded_.state, here(), threads_, much);
-    if (!trouble_.is_all) {
-      once_cut_ = rounded_;
+    if (trouble_.size() > kMany) {
+      once_cut_ = OnceCut{rounded_, trouble_.size()};
       return;
     }
   }
@@ -86,14 +106,15 @@ void Ladder::try_plans(SidesOf sides) {
     work_.most = kPlansOfMuchWork * kMuchWork.of(rounded_.state.facets.size());
   if (!is_plane_ && trouble_.size() > kMany && begin_with_twins()) return;
   begin_flat(kFlatPlans);
-  if (!is_plane_ && !is_welded_ && report_.rung == Rung::coarser && trouble_.size() > kFew) join_flat();
+  const bool may_join = report_.rung == Rung::coarser || (once_cut_ && !has_twins());
+  if (!is_plane_ && !is_welded_ && trouble_.size() > kFew && may_join) join_first();
   try_next_plans();
 }
 
 bool Ladder::begin_with_twins() {
   const double bit = last_bit(given_.vertices), near = kWeldedPlans[0].last_bits * bit;
   const double most = kMostForTwins * extent(given_.vertices);
-  const auto distance = distance_of_twins(rounded_.state, trouble_, std::max(near, most), here());
+  const auto distance = distance_of_twins(rounded_.state, trouble_, 0.5, std::max(near, most), here());
   if (!distance) return false;
   // Joining displaces less than moving input vertices, but is slow if sheets nearly coincide.
   is_welded_ = *distance <= near;
@@ -145,9 +166,11 @@ void Ladder::cut_again() {
 
 void Ladder::cut_late() {
   if (!once_cut_) return;
-  if (!trouble_.is_all) trouble_ = trouble_of(rounded_.state, here(), threads_);
-  Rounded before = std::exchange(rounded_, std::move(*once_cut_));
+  OnceCut first = std::move(*once_cut_);
   once_cut_.reset();
+  if (!trouble_.is_all) trouble_ = trouble_of(rounded_.state, here(), threads_);
+  if (kFarFewer * trouble_.size() < first.in_trouble) return;
+  Rounded before = std::exchange(rounded_, std::move(first.rounded));
   cut_again();
   Trouble now;
   if (!rounded_.is_valid) now = trouble_of(rounded_.state, here(), threads_, trouble_.size());
@@ -200,7 +223,9 @@ void Ladder::join(const Plan& plan) {
       continue;
     }
     ++in_vain;
-    if (now.trouble.size() > too_much || (how.passings == Passings::all && moved == 0)) break;
+    const bool puts_vertices = how.passings == Passings::all;
+    if (now.trouble.size() > too_much || (puts_vertices && moved == 0)) break;
+    if (puts_vertices && 2 * now.trouble.size() > too_much) break;
     how.passings = Passings::all;
   }
   work_.done += work.done;
@@ -221,14 +246,22 @@ void Ladder::join_from_best(const Plan& plan) {
     best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
 }
 
-void Ladder::join_flat() {
-  Attempt flat{rounded_.state, trouble_, rounded_.displacement};
+bool Ladder::has_twins() const {
+  constexpr double kShare = 0.1;  // found: none to 2 %, or 22 % and more
+  const double widest = kWeldedPlans.back().last_bits * last_bit(given_.vertices);
+  return distance_of_twins(rounded_.state, trouble_, kShare, widest, here()).has_value();
+}
+
+void Ladder::join_first() {
+  Attempt before{rounded_.state, trouble_, rounded_.displacement};
+  const Rung rung = report_.rung;
   join_from_best(kPlans[0]);
   if (trouble_.size() <= kFew) {
     next_plan_ = 1;
     return;
   }
-  stand(std::move(flat));
+  stand(std::move(before));
+  report_.rung = rung;
   best_.reset();
 }
 
@@ -245,7 +278,11 @@ RoundPlane Ladder::round_plane() {
 }
 
 void Ladder::flatten_all(State& state, double gap, double& displacement) {
-  const Flattened flat = repairing::flatten_all(state, gap, round_plane(), sides_, here());
+  flatten_all(state, find_clusters(state, gap, {}, here()), gap, displacement);
+}
+
+void Ladder::flatten_all(State& state, const Clusters& clusters, double gap, double& displacement) {
+  const Flattened flat = repairing::flatten_all(state, clusters, gap, round_plane(), sides_, here());
   has_shared_ |= flat.has_shared;
   displacement = sum_above(displacement, flat.moved);
 }
@@ -277,10 +314,13 @@ void Ladder::begin_flat(const Plan& plan) {
   const double gap = plan.last_bits * last_bit(given_.vertices);
   Attempt flat{given_, {}, given_displacement_};
   if (plan.moves_input) flat.displacement = sum_above(flat.displacement, weld(flat.state, gap, here()));
-  flatten_all(flat.state, gap, flat.displacement);
+  const Clusters clusters = find_clusters(flat.state, gap, {}, here());
+  if (!plan.moves_input && !concerns_trouble(clusters.facets)) return;
+  flatten_all(flat.state, clusters, gap, flat.displacement);
   if (flat.displacement == given_displacement_) return;
   if (flat.state.facets == flattened_.facets && flat.state.vertices == flattened_.vertices) return;
   flattened_ = flat.state;
+  if (!concerns_trouble(changed_facets(given_, flat.state))) return;
   if (!proven_) proven_ = std::make_shared<const Proven>(rounded_.state);
   Rounded before = std::move(rounded_);
   rounded_ = {false, std::move(flat.state), flat.displacement, false};
@@ -301,11 +341,24 @@ void Ladder::begin_flat(const Plan& plan) {
   }
 }
 
+bool Ladder::concerns_trouble(std::span<const Index> facets) const {
+  constexpr std::size_t kShare = 8;
+  std::vector<Index> changed, in_trouble, both;
+  for (const Index f : facets) add_origins(given_, f, changed);
+  for (const Index f : trouble_.facets) add_origins(rounded_.state, f, in_trouble);
+  sort_unique(changed);
+  sort_unique(in_trouble);
+  std::set_intersection(changed.begin(), changed.end(), in_trouble.begin(), in_trouble.end(),
+                        std::back_inserter(both));
+  return kShare * both.size() >= in_trouble.size();
+}
+
 bool Ladder::cut_flat() {
   const auto [first, second] = new_points_;
   const std::optional<std::size_t> now = cut(std::min(options_.most_points, 100 + first + first / 8));
   if (!now) return too_many_ > 1000 + 4 * first;
-  return rounded_.is_valid || cut(std::min({options_.most_points, second, 100 + *now}));
+  const std::size_t most = second == SIZE_MAX ? *now / 4 : std::min(second, *now);
+  return rounded_.is_valid || cut(std::min(options_.most_points, 100 + most));
 }
 
 void Ladder::stand(Attempt attempt) {

@@ -51,8 +51,8 @@ class Ladder {
   /// further than `most` is useless.
   [[nodiscard]] Rounded run_in_plane(double most);
 
-  /// Cuts and rounds, as a rule twice. If so much is in trouble after the first cut that a second one would
-  /// add to it, the second cut is left to `cut_late`.
+  /// Cuts and rounds, and does so once more if little is in trouble after that. Otherwise a second cut would
+  /// leave much, or even add to it, and is left to `cut_late`.
   void begin();
 
   /// Continues after `begin` until the surface is valid or no step is left.
@@ -77,8 +77,8 @@ class Ladder {
   /// nowhere.
   void cut_again();
 
-  /// The second cut, if `begin` left it out. Its result is kept if it leaves less in trouble than all tried
-  /// since.
+  /// The second cut, if `begin` left it out and far less is not in trouble by now. Its result is kept if it
+  /// leaves less in trouble than all tried since.
   void cut_late();
 
   /// Whether nothing is in trouble. Builds with HOLDFAST_VALIDATE search again without relying on facets
@@ -90,6 +90,12 @@ class Ladder {
   [[nodiscard]] bool is_hopeless() const;
 
   [[nodiscard]] Step here() const;
+
+  /// The surface after the first cut, while the second one is put off.
+  struct OnceCut {
+    Rounded rounded;
+    std::size_t in_trouble;  // at least so many elements
+  };
 
   /// A state of the surface that may become the current one.
   struct Attempt {
@@ -107,13 +113,18 @@ class Ladder {
   /// from the best state.
   void join_from_best(const Plan& plan);
 
-  /// After sheets were joined, joins other triangles in trouble. If much stays in trouble, the joining is
+  /// Whether a share of the input vertices in trouble is so near to others that kWeldedPlans weld them: they
+  /// may be the two sides of a crack.
+  [[nodiscard]] bool has_twins() const;
+
+  /// Joins triangles in trouble before input vertices are welded. If much stays in trouble, the joining is
   /// undone.
-  void join_flat();
+  void join_first();
 
   [[nodiscard]] RoundPlane round_plane();
 
   void flatten_all(State& state, double gap, double& displacement);
+  void flatten_all(State& state, const Clusters& clusters, double gap, double& displacement);
 
   /// Makes sheets one that are in trouble and coincide by now.
   void flatten_again(const Plan& plan);
@@ -123,6 +134,10 @@ class Ladder {
   /// Starts again from the given surface and makes coincident sheets one before the first cut, because their
   /// planes would cross in lines all over the sheets. The result is kept if it leaves less in trouble.
   void begin_flat(const Plan& plan);
+
+  /// Whether a share of the facets in trouble are parts of these facets of the given surface. If not, it will
+  /// hardly help to change these.
+  [[nodiscard]] bool concerns_trouble(std::span<const Index> facets) const;
 
   /// Cuts and rounds twice. Returns false if a cut takes more new points than it did before sheets were made
   /// one, or the second cut more than the first, because then more would be in trouble, too. A few points
@@ -193,7 +208,7 @@ class Ladder {
   double given_displacement_ = 0;  // by earlier steps: welding, or sheets made one
   Rounded rounded_;
   Trouble trouble_;
-  std::optional<Rounded> once_cut_;       // after the first cut, while the second is put off
+  std::optional<OnceCut> once_cut_;
   std::optional<Attempt> best_;           // of the plans so far
   State flattened_;                       // by the last call of begin_flat
   const State* before_ = nullptr;         // see compare_with

@@ -26,8 +26,8 @@ double weld(State& state, double tolerance, const Step& step) {
   return settle(state, everything(state), {gap, gap, true, passings}, work, step);
 }
 
-std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double widest,
-                                        const Step& step) {
+std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double share,
+                                        double widest, const Step& step) {
   std::vector<Index> vertices;
   const auto list = [&](std::span<const Index> corners) {
     for (const Index v : corners)
@@ -51,10 +51,10 @@ std::optional<double> distance_of_twins(const State& state, const Trouble& troub
   AabbTree(boxes).for_each_overlap(
       visit, [](Index, Index) { return false; }, step);
   if (least.empty()) return std::nullopt;
-  const auto middle = least.begin() + static_cast<std::ptrdiff_t>(least.size() / 2);
-  std::nth_element(least.begin(), middle, least.end());
-  if (*middle > widest) return std::nullopt;
-  return *middle;
+  const auto enough = least.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(least.size()));
+  std::nth_element(least.begin(), enough, least.end());
+  if (*enough > widest) return std::nullopt;
+  return *enough;
 }
 
 }  // namespace holdfast::repairing

@@ -13,10 +13,10 @@ namespace holdfast::repairing {
 /// than the tolerance, with room left for rounding where that is possible.
 double weld(State& state, double tolerance, const Step& step);
 
-/// The distance within which more than half of the input vertices in trouble have another of them at a
-/// different place. This is so if a surface is duplicated up to rounding, or if its triangles were written
-/// one by one. No value if the distance is more than `widest`.
+/// The distance within which more than this share of the input vertices in trouble have another of them at a
+/// different place. Half of them do if a surface is duplicated up to rounding, or if its triangles were
+/// written one by one. No value if the distance is more than `widest`.
 [[nodiscard]] std::optional<double> distance_of_twins(const State& state, const Trouble& trouble,
-                                                      double widest, const Step& step);
+                                                      double share, double widest, const Step& step);
 
 }  // namespace holdfast::repairing
