@@ -1,6 +1,7 @@
 // The public function of holdfast/repair.h: limits and outcomes around the work of src/repair.
 #include "holdfast/repair.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -12,9 +13,11 @@
 #include "mesh/memory.h"
 #include "mesh/plain_monitor.h"
 #include "numbers/float_environment.h"
+#include "repair/bounds.h"
 #include "repair/covered.h"
 #include "repair/deliver.h"
 #include "repair/holes.h"
+#include "repair/plans.h"
 #include "repair/rounding.h"
 #include "repair/weld.h"
 
@@ -89,6 +92,38 @@ repairing::Rounded round_scaled(const Complex& complex, repairing::State state, 
   return repairing::round_arranged(std::move(state), options, result.report, result.exact, step, threads);
 }
 
+/// What is welded within a tolerance may pass itself by some last bits in the end, where hardly any mesh
+/// could be in between. Such vertices and sides are welded once more, within 64 last bits, unless that takes
+/// new resorts.
+void weld_thin(const Complex& complex, repairing::Rounded& rounded, const RepairOptions& options,
+               RepairResult& result, const Step& step, const Threads& threads) {
+  const double thin = repairing::kThinnest * repairing::last_bit(rounded.state.vertices);
+  const Rung rung = result.report.rung;
+  // Of 17 results whose points were only rounded, all had a mesh, and this would take up to as long again.
+  if (options.exact || options.weld <= thin || rung == Rung::nearest || rung > Rung::coarser) return;
+  repairing::State state = rounded.state;
+  constexpr repairing::MostWork kWork{100'000, 100};  // 3,000 comparisons a facet on a surface of needles
+  repairing::Work work{kWork.of(state.facets.size())};
+  const double moved = repairing::weld(state, thin, work, step);
+  if (moved == 0 || work.is_spent()) return;
+  RepairOptions again = options;
+  again.weld = again.join = 0;
+  again.exact = false;
+  RepairResult second;
+  repairing::Rounded welded;
+  try {
+    welded = round_scaled(complex, std::move(state), again, second, step, threads);
+  } catch (const arrange::TooManyPoints&) {
+    return;  // the first result is valid
+  }
+  if (!welded.is_valid || second.report.rung > Rung::coarser) return;
+  welded.displacement =
+      repairing::sum_above(rounded.displacement, repairing::sum_above(moved, welded.displacement));
+  rounded = std::move(welded);
+  result.report.rounds += second.report.rounds;
+  result.report.rung = std::max(result.report.rung, second.report.rung);
+}
+
 void run(const Complex& complex, const RepairOptions& options, PlainMonitor& monitor, RepairResult& result) {
   const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
   const Step step = [&](double fraction) { monitor.poll(fraction); };
@@ -98,6 +133,7 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,
                "no doubles were found for the new points with which the surface is valid");
+  if (options.weld > 0) weld_thin(complex, rounded, options, result, step, threads);
   if (welded > 0) {
     // Welding turns what is thinner than the tolerance into a line, which is lost unless other facets contain
     // it.

@@ -93,6 +93,12 @@ bool share_area(const State& state, const Planes& planes, Index f, Index g, doub
   return in_g && in_f && other != axis && overlap(state, f, g, other);
 }
 
+/// Whether these are a small share of all facets.
+bool is_few(const State& state, std::span<const Index> some) {
+  constexpr std::size_t kFew = 4;
+  return !some.empty() && some.size() < state.facets.size() / kFew;
+}
+
 /// Facets whose corners exist and are finite, and boxes round them. If `some` are few, only the facets near
 /// them.
 std::pair<std::vector<Index>, std::vector<Box>> boxes_near(const State& state, double gap,
@@ -103,8 +109,7 @@ std::pair<std::vector<Index>, std::vector<Box>> boxes_near(const State& state, d
     return std::all_of(t.begin(), t.end(),
                        [&](Index v) { return v < state.vertices.size() && is_finite(state.vertices[v]); });
   };
-  constexpr std::size_t kFew = 4;  // share of all facets
-  const bool are_few = !some.empty() && some.size() < state.facets.size() / kFew;
+  const bool are_few = is_few(state, some);
   AabbTree near;
   if (are_few) {
     std::vector<Box> boxes;
@@ -121,6 +126,28 @@ std::pair<std::vector<Index>, std::vector<Box>> boxes_near(const State& state, d
     found.second.push_back(box);
   }
   return found;
+}
+
+/// Calls compare(f, g) for facets whose boxes overlap, of which g is one of some. The boxes of all others are
+/// not compared with each other: there may be millions of such pairs.
+template <class Compare>
+void for_each_near(std::span<const Index> facet, std::span<const Box> boxes,
+                   std::span<const std::uint8_t> is_some, Compare&& compare, const Step& step) {
+  std::vector<Index> some;
+  std::vector<Box> boxes_of_some;
+  for (std::size_t i = 0; i < facet.size(); ++i) {
+    if (is_some[facet[i]] == 0) continue;
+    some.push_back(facet[i]);
+    boxes_of_some.push_back(boxes[i]);
+  }
+  const AabbTree tree(boxes_of_some);
+  for (std::size_t i = 0; i < facet.size(); ++i) {
+    if (i % 1024 == 0) step(static_cast<double>(i) / static_cast<double>(facet.size()));
+    tree.for_each_item([&](const Box& box) { return !box.overlaps(boxes[i]); },
+                       [&](const AabbTree::Item& item) {
+                         if (some[item.id] != facet[i]) compare(facet[i], some[item.id]);
+                       });
+  }
 }
 
 /// Projects along the axis closest to the normal of the largest facet, and leaves out facets without area in
@@ -164,24 +191,30 @@ Clusters find_clusters(const State& state, double gap, std::span<const Index> so
   const std::vector<Index>& facet = near.first;
   const std::vector<Box>& boxes = near.second;
   const Planes planes(state, facet);
+  DisjointSets sets(state.facets.size());
+  std::set<Index> together;
+  const auto compare = [&](Index f, Index g) {
+    if (sets.root(f) == sets.root(g) || !share_area(state, planes, f, g, gap)) return;
+    sets.unite(f, g);
+    together.insert(f);
+    together.insert(g);
+  };
+  constexpr std::size_t kVeryFew = 256;  // with more of them, fans matter
+  if (is_few(state, some) && some.size() <= kVeryFew) {
+    for_each_near(facet, boxes, is_some, compare, step);
+    return clusters_of(state, planes, together, sets);
+  }
   const FlatFans fans(state, facet, planes.axes_of(facet));
   const AabbTree tree(boxes, fans.first());
   NodeGroups in_fans(tree, fans.of());
-  DisjointSets sets(state.facets.size());
-  std::set<Index> together;
-  const auto compare = [&](Index i, Index j) {
-    const Index f = facet[i], g = facet[j];
-    if (is_some[f] + is_some[g] == 0) return true;
+  const auto visit = [&](Index i, Index j) {
+    if (is_some[facet[i]] + is_some[facet[j]] == 0) return true;
     if (!fans.of().empty() && NodeGroups::share_any(fans.of()[i], fans.of()[j])) return true;
-    if (sets.root(f) != sets.root(g) && share_area(state, planes, f, g, gap)) {
-      sets.unite(f, g);
-      together.insert(f);
-      together.insert(g);
-    }
+    compare(facet[i], facet[j]);
     return true;
   };
   tree.for_each_overlap(
-      compare, [&](Index a, Index b) { return in_fans.share(a, b); }, step);
+      visit, [&](Index a, Index b) { return in_fans.share(a, b); }, step);
   return clusters_of(state, planes, together, sets);
 }
 

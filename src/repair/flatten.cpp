@@ -11,6 +11,7 @@
 #include "repair/bounds.h"
 #include "repair/flat_cluster.h"
 #include "repair/near.h"
+#include "repair/plans.h"
 #include "repair/shared_sides.h"
 #include "repair/sheet_parts.h"
 #include "surface/complex.h"
@@ -307,17 +308,19 @@ Flattened flatten_all(State& state, double gap, const RoundPlane& round, SidesOf
 Flattened flatten_all(State& state, const Clusters& clusters, double gap, const RoundPlane& round,
                       SidesOf sides, const Step& step) {
   constexpr int kPasses = 4;  // flattening one cluster may bring others near
-  Flattened all;
-  std::vector<Index> some;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    Flattened now = pass == 0 ? Flattening(state, gap, round, sides).run(clusters)
-                              : flatten(state, gap, round, sides, step, some);
+  Flattened all = Flattening(state, gap, round, sides).run(clusters);
+  std::vector<Index> some = std::move(all.changed);
+  for (int pass = 1; pass < kPasses && all.moved > 0 && !some.empty(); ++pass) {
+    const Clusters again = find_clusters(state, gap, some, step);
+    // Where much lies within the gap, parts of sheets overlap others anew, and more of them in each pass.
+    if (again.facets.size() > most_in_later_passes(clusters.facets.size())) break;
+    Flattened now = Flattening(state, gap, round, sides).run(again);
     all.has_shared |= now.has_shared;
     if (now.moved == 0) break;
     all.moved = sum_above(all.moved, now.moved);
-    if (now.changed.empty()) break;
     some = std::move(now.changed);
   }
+  all.changed.clear();
   return all;
 }
 

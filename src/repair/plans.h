@@ -67,6 +67,10 @@ struct MostWork {
 inline constexpr std::size_t kPlansOfMuchWork = 5;
 inline constexpr MostWork kMuchWork{8'000'000, 1000}, kLittleWork{1'000'000, 250};
 
+/// Largest number of facets in clusters after a pass of flattening that began with so many. With more, each
+/// pass makes new overlaps.
+constexpr std::size_t most_in_later_passes(std::size_t facets) { return 1000 + facets; }
+
 /// How many elements in trouble count as few, and as many.
 inline constexpr std::size_t kFew = 100, kMany = 400;
 

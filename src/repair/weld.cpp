@@ -13,14 +13,17 @@
 namespace holdfast::repairing {
 
 double weld(State& state, double tolerance, const Step& step) {
+  Work work;
+  return weld(state, tolerance, work, step);
+}
+
+double weld(State& state, double tolerance, Work& work, const Step& step) {
   constexpr double kRoomForRounding = 0x1p-20;  // as a share of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
-  Work work;
   // If two patches cut the curve between them differently, their sides cross between the vertices. So do the
   // edges of bodies that touch each other there. Sheets that coincide are left to `flatten`: their triangles
   // cross each other at all sides, and vertices there would not make them the same. Within a body, what is
   // thinner than the tolerance stays, unless it is so thin that hardly any mesh could be in it.
-  constexpr double kThinnest = 0x1p6;  // last bits
   const bool is_thin = tolerance <= kThinnest * last_bit(state.vertices);
   const Passings passings = is_thin ? Passings::edges : Passings::bodies;
   return settle(state, everything(state), {gap, gap, true, passings}, work, step);

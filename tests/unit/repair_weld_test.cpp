@@ -88,17 +88,21 @@ void add_handle(Surface& surface) {
 
 // What is thin within a body stays, so that no wall becomes a single triangle.
 TEST(RepairWithWeld, EdgesOfOneBodyShareAVertexWithinSomeLastBits) {
-  for (const double height : {0x1p-51, 1e-9}) {
+  struct {
+    double height, weld;
+  } constexpr cases[] = {{0x1p-51, 0x1p-46}, {0x1p-51, 1e-6}, {1e-9, 1e-6}};
+  for (const auto& [height, weld] : cases) {
     Surface surface;
     add_roof(surface, false, 0);
     add_roof(surface, true, height);
     add_handle(surface);
     ASSERT_TRUE(diagnose(surface.view()).empty());
     RepairOptions options;
-    options.weld = 32 * height;
+    options.weld = weld;
     const RepairResult welded = repair(surface.view(), options);
     expect_valid(welded);
     EXPECT_EQ(welded.surface.vertices.size(), height < 1e-12 ? 14u : 13u);
+    EXPECT_LE(welded.max_displacement, weld);
   }
 }
 
