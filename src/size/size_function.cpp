@@ -174,6 +174,8 @@ void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed>
     }
     if (has_bound) of_region_[r] = std::min(of_region_[r], size_of_volume(most_volumes_[r]));
   }
+  has_limit_of_region_ =
+      std::any_of(of_region_.begin(), of_region_.end(), [](double h) { return h < kNoLimit; });
 }
 
 Point SizeFunction::unscaled(const Point& p) const { return times_power(p, -scale_); }

@@ -60,10 +60,7 @@ class SizeFunction {
     return factor_of_region_.empty() ? size : size / factor_of_region_[region];
   }
   /// Whether the user gave a limit anywhere.
-  [[nodiscard]] bool has_limit() const {
-    return field_ || std::any_of(of_region_.begin(), of_region_.end(),
-                                 [](double h) { return h < std::numeric_limits<double>::infinity(); });
-  }
+  [[nodiscard]] bool has_limit() const { return field_ || has_limit_of_region_; }
   /// Those of the threads that may ask for sizes: a function of the user is called on the calling one alone,
   /// unless it may be called on several.
   [[nodiscard]] Threads threads_of(const Threads& all) const {
@@ -101,6 +98,7 @@ class SizeFunction {
   bool grows_, is_given_at_vertices_;
   int scale_;
   std::vector<double> of_region_;
+  bool has_limit_of_region_ = false;      // asked for at each tetrahedron, and there may be 100,000 regions
   std::vector<double> factor_of_region_;  // that of_region_ is multiplied by already; none if by nothing
   std::vector<double> most_volumes_;
   std::function<double(const Point&)> field_;
