@@ -34,7 +34,7 @@ Value value_in(const fs::path& manifest, const Json& json, const std::string& ke
 
 /// A name within the folder: a foreign manifest must not lead to files elsewhere.
 fs::path name_in(const fs::path& manifest, const Json& json, const char* key) {
-  const fs::path name = value_in<std::string>(manifest, json, key);
+  fs::path name = value_in<std::string>(manifest, json, key);
   if (name.empty() || name.has_parent_path() || name == "." || name == "..")
     fail(manifest, fmt::format("\"{}\": {} is no name of a file in this folder", key, name.string()));
   return name;

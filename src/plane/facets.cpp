@@ -186,6 +186,7 @@ CutFacet cut_facet(std::span<const Point> vertices, const PolygonFacet& facet, d
   std::vector<Vertex> first;
   for (const std::vector<Index>& polygon : facet.polygons) {
     std::vector<Vertex> walk;
+    walk.reserve(polygon.size());
     for (const Index corner : polygon) walk.push_back(places.place_of(corner));
     if (polygon.size() >= 3 && first.empty()) first = walk;
     for (const auto& [a, b] : sides_of(walk))

@@ -17,7 +17,9 @@ struct Cost {
   double area = 0;
 
   Cost operator+(const Cost& other) const { return {flat + other.flat, area + other.area}; }
-  auto operator<=>(const Cost&) const = default;
+  bool operator<(const Cost& other) const {
+    return flat != other.flat ? flat < other.flat : area < other.area;
+  }
 };
 
 Cost cost_of(const Point& a, const Point& b, const Point& c) {

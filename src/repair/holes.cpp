@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 
 #include "exact/predicates.h"
@@ -154,9 +155,9 @@ void add_fitting(State& state, std::vector<Filling>& fillings, const Step& step,
       }
     const std::set<std::size_t> bad = unfit(state, before, filling_with, step, threads);
     if (bad.empty()) return;
-    for (auto k = bad.rbegin(); k != bad.rend(); ++k) {
-      holes.left_open.push_back({std::move(fillings[*k].loop), OpenReason::meets_surface});
-      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(*k));
+    for (const std::size_t k : std::ranges::reverse_view(bad)) {
+      holes.left_open.push_back({std::move(fillings[k].loop), OpenReason::meets_surface});
+      fillings.erase(fillings.begin() + static_cast<std::ptrdiff_t>(k));
     }
   }
 }
