@@ -22,10 +22,9 @@ struct CutPolygons {
 /// - A triangle stays as it is, and a convex polygon becomes a fan, plane or not.
 /// - Any other becomes constrained Delaunay triangles as seen along its normal, or along another axis where
 ///   its sides cross there.
-/// - One whose sides cross all the same becomes triangles of least area (Klincsek 1980), which may cross,
-/// too;
-///   one whose corners are on a line or not finite, a fan. `diagnose` names what is wrong with them, and
-///   `repair` resolves it.
+/// - One whose sides cross all the same becomes triangles of least area (Klincsek 1980), which may cross. One
+///   whose corners are on a line or not finite becomes a fan. `diagnose` names what is wrong with these
+///   triangles, and `repair` resolves it.
 /// Throws std::invalid_argument for offsets that do not ascend from 0 to the number of corners, for a polygon
 /// of fewer than three corners, and for a corner that names no vertex.
 [[nodiscard]] HOLDFAST_API CutPolygons cut_polygons(std::span<const Point> vertices,

@@ -12,11 +12,13 @@
 #include "mesh/limit_message.h"
 #include "mesh/memory.h"
 #include "mesh/plain_monitor.h"
+#include "numbers/finite.h"
 #include "numbers/float_environment.h"
 #include "repair/bounds.h"
 #include "repair/covered.h"
 #include "repair/deliver.h"
 #include "repair/holes.h"
+#include "repair/near.h"
 #include "repair/plans.h"
 #include "repair/rounding.h"
 #include "repair/weld.h"
@@ -92,9 +94,19 @@ repairing::Rounded round_scaled(const Complex& complex, repairing::State state, 
   return repairing::round_arranged(std::move(state), options, result.report, result.exact, step, threads);
 }
 
+/// Whether a vertex of the input would be listed as moved by more than a tolerance.
+bool moves_beyond(const Complex& complex, const repairing::State& state, double tolerance) {
+  constexpr double kRoundedUp = 1 + 0x1p-48;
+  for (std::size_t v = 0; v < complex.vertices.size(); ++v) {
+    const Point &before = complex.vertices[v], &after = state.vertices[v];
+    if (is_finite(before) && repairing::length(after - before) * kRoundedUp > tolerance) return true;
+  }
+  return false;
+}
+
 /// What is welded within a tolerance may pass itself by some last bits in the end, where hardly any mesh
 /// could be in between. Such vertices and sides are welded once more, within 64 last bits, unless that takes
-/// new resorts.
+/// new resorts, or moves a vertex beyond the tolerance in all.
 void weld_thin(const Complex& complex, repairing::Rounded& rounded, const RepairOptions& options,
                RepairResult& result, const Step& step, const Threads& threads) {
   const double thin = repairing::kThinnest * repairing::last_bit(rounded.state.vertices);
@@ -117,6 +129,7 @@ void weld_thin(const Complex& complex, repairing::Rounded& rounded, const Repair
     return;  // the first result is valid
   }
   if (!welded.is_valid || second.report.rung > Rung::coarser) return;
+  if (moves_beyond(complex, welded.state, options.weld)) return;
   welded.displacement =
       repairing::sum_above(rounded.displacement, repairing::sum_above(moved, welded.displacement));
   rounded = std::move(welded);

@@ -48,9 +48,9 @@ struct Wanted {
 
 /// Applies the keep rule, holes and region seeds, then looks for elements that border on no kept region.
 ///
-/// A region with a seed has the seed's id; Keep::automatic keeps it whatever its winding number. Other kept regions have the lowest positive ids that no seed
-/// takes, in the order of their numbers. If parts overlap that must not, no region is chosen. The mesh is the
-/// complex times 2^scale.
+/// A region with a seed has the seed's id; Keep::automatic keeps it whatever its winding number. Other kept
+/// regions have the lowest positive ids that no seed takes, in the order of their numbers. If parts overlap
+/// that must not, no region is chosen. The mesh is the complex times 2^scale.
 ///
 /// Throws std::invalid_argument for a hole or region seed that lies on a facet or in no region that it
 /// could mean, and for seeds that give one region two ids.

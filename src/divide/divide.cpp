@@ -59,8 +59,9 @@ class Divider {
  private:
   void divide(SurfaceDivision& division) {
     const WantedSize wanted(complex_, tuning::kGradation, coarse_limit());
-    const std::size_t parts = sensible_parts(wanted);
-    const Bisection cells(work(wanted, parts), parts);
+    const double in_all = expected(wanted);
+    const std::size_t parts = sensible_parts(in_all);
+    const Bisection cells(work(wanted, in_all / (kSamples * static_cast<double>(parts))), parts);
     coarse_ = {};
     const Result fine = mesh_near(wanted, cells);
     const std::vector<Neighbours> beside = neighbours(fine.volume.tetrahedra);
@@ -130,17 +131,17 @@ class Divider {
   }
 
   // A part has a tetrahedron at least; without this bound, the work would be cut into pieces without end.
-  std::size_t sensible_parts(const WantedSize& wanted) const {
-    const double sum = expected(wanted);
-    require_few_enough(sum / static_cast<double>(options_.parts));
-    return static_cast<double>(options_.parts) <= sum ? options_.parts
-                                                      : static_cast<std::size_t>(std::max(1.0, sum));
+  std::size_t sensible_parts(double tetrahedra) const {
+    require_few_enough(tetrahedra / static_cast<double>(options_.parts));
+    return static_cast<double>(options_.parts) <= tetrahedra
+               ? options_.parts
+               : static_cast<std::size_t>(std::max(1.0, tetrahedra));
   }
 
-  // By tetrahedra with little of the work each: the coarse ones may be large compared with the parts.
-  std::vector<division::Work> work(const WantedSize& wanted, std::size_t parts) const {
+  // By tetrahedra with at most so much of the work each: the coarse ones may be large compared with the
+  // parts.
+  std::vector<division::Work> work(const WantedSize& wanted, double most) const {
     std::vector<division::Work> result;
-    const double most = expected(wanted) / (kSamples * static_cast<double>(parts));
     for (const Tetrahedron& t : coarse_.tetrahedra)
       add_work(corners_of(coarse_, t), wanted, most, kMostHalvings, result);
     return result;

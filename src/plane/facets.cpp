@@ -83,10 +83,14 @@ std::string not_plane(const Level& level) {
          " away from the mean one; give a larger tolerance, or split it into triangles";
 }
 
-std::vector<Position> projected(const Places& places, const Level& level) {
+/// The places in the coordinate plane across an axis.
+std::vector<Position> projected(const Places& places, std::size_t axis) {
   std::vector<Position> positions;
   positions.reserve(places.size());
-  for (Vertex v = 0; v < places.size(); ++v) positions.push_back(level.project(places.at(v)));
+  for (Vertex v = 0; v < places.size(); ++v) {
+    const Point& p = places.at(v);
+    positions.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
+  }
   return positions;
 }
 
@@ -102,12 +106,7 @@ std::vector<Triangle> in_space(const Places& places, const std::vector<Corners3>
 /// overlap.
 std::vector<Triangle> triangles_across(const Places& places, const std::vector<Vertex>& walk,
                                        std::size_t axis, const Poll& poll) {
-  std::vector<Position> positions;
-  positions.reserve(places.size());
-  for (Vertex v = 0; v < places.size(); ++v) {
-    const Point& p = places.at(v);
-    positions.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
-  }
+  const std::vector<Position> positions = projected(places, axis);
   std::vector<Position> sorted = positions;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) return {};
@@ -200,7 +199,7 @@ CutFacet cut_facet(std::span<const Point> vertices, const PolygonFacet& facet, d
   if (!(facet.holes.empty() ? level.near() : level.near_in_file())) return {{}, not_plane(level), 0};
   std::vector<Position> holes;
   for (const Point& hole : facet.holes) holes.push_back(level.project(hole));
-  const std::vector<Position> positions = projected(places, level);
+  const std::vector<Position> positions = projected(places, level.axis());
   auto flat = triangles_of_outlines(positions, edges, holes, poll);
   if (!flat) return {{}, "whose sides cross or overlap, or have a hole on them", 0};
   if (flat->empty()) return {{}, "that encloses nothing, or nothing but holes", 0};

@@ -74,8 +74,7 @@ class Parts {
 
  private:
   void choose(std::size_t i, std::size_t j) {
-    Cost best{0, std::numeric_limits<double>::infinity()};
-    best.flat = n_;
+    Cost best{n_, std::numeric_limits<double>::infinity()};
     for (std::size_t k = i + 1; k < j; ++k) {
       const Cost cost = cost_[i * n_ + k] + cost_[k * n_ + j] + cost_of(places_[i], places_[k], places_[j]);
       if (!(cost < best)) continue;

@@ -28,7 +28,7 @@ struct Nearness {
   double t = 0;     ///< along the side
   Point foot{};     ///< the point below
   double size = 0;  ///< magnitude of the numbers behind the distance
-  /// The distance from the point of the side or facet that is the foot in floating point. The normal of a
+  /// For facets, the distance from the point of the facet that is the foot in floating point. The normal of a
   /// sliver is uncertain, and so is the distance along it; this one is not, and is never too small.
   double reach = 0;
   /// Error of the distance from a sliver, whose normal is uncertain because its area is small.
