@@ -24,8 +24,8 @@ class MeshAssembly : public MeshEditor {
   using MeshEditor::set_incident;
 
   // --- tetrahedra
-  /// Room for so many vertices and slots in all.
-  using MeshEditor::reserve;
+  /// Room for so many vertices and slots in all, and for more to come.
+  using MeshEditor::make_room;
   /// As load, but neighbours need not be right yet.
   using MeshEditor::set_tets;
   /// The new tetrahedron has no neighbours yet.

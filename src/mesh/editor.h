@@ -37,6 +37,7 @@ class MeshEditor {
 
   // --- vertices in no tetrahedron
   void reserve(std::size_t vertices, std::size_t tets) { mesh_.reserve(vertices, tets); }
+  void make_room(std::size_t vertices, std::size_t tets) { mesh_.make_room(vertices, tets); }
   /// From now on vertices only get doubles of this grid.
   void set_grid(const exact::DoubleGrid& grid) { mesh_.grid_ = grid; }
   /// A vertex at the point of the grid nearest to p.

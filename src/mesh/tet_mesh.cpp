@@ -164,4 +164,12 @@ void TetMesh::reserve(std::size_t vertices, std::size_t tets) {
   flags_.reserve(tets);
 }
 
+void TetMesh::make_room(std::size_t vertices, std::size_t tets) {
+  constexpr std::size_t kShareOfRoom = 8;  // one in so many
+  const auto with_room = [](std::size_t count, std::size_t capacity) {
+    return count <= capacity ? capacity : count + count / kShareOfRoom;
+  };
+  reserve(with_room(vertices, positions_.capacity()), with_room(tets, cells_.capacity()));
+}
+
 }  // namespace holdfast

@@ -143,6 +143,9 @@ class TetMesh {
     incident_[v] = t;
   }
   void reserve(std::size_t vertices, std::size_t tets);
+  // The same for a mesh that grows in steps: what has to be copied gets room for later steps, too. Memory
+  // that is not touched costs nothing.
+  void make_room(std::size_t vertices, std::size_t tets);
   void renumber(std::span<const Tet> tets, Vertex first, std::span<const Vertex> vertices);
   void set_tets(std::vector<Cell> cells);
 

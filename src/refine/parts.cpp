@@ -406,7 +406,7 @@ void Parts::join(const Threads& threads) {
     tet += static_cast<Tet>(joiner.new_tets());
     vertex += static_cast<Vertex>(joiner.new_vertices());
   }
-  MeshAssembly(whole_.mesh).reserve(vertex, tet);
+  MeshAssembly(whole_.mesh).make_room(vertex, tet);
   threads.poll();
   for (std::size_t more = tet - whole_.mesh.slot_count(); more > 0; threads.poll()) {
     const std::size_t some = std::min(more, kSlotsAtOnce);
