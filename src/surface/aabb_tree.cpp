@@ -16,31 +16,39 @@ void Box::extend(const Box& other) {
   }
 }
 
-AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, const Threads& threads)
-    : group_(group) {
+AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, const Threads& threads) {
   if (boxes.empty()) return;
-  items_.reserve(boxes.size());
-  for (const Box& box : boxes) items_.push_back({box, static_cast<Index>(items_.size())});
+  building_ = {boxes, group, {}, {}};
+  building_.items.reserve(boxes.size());
+  for (const Box& box : boxes)
+    building_.items.push_back(
+        {{box.centre(0), box.centre(1), box.centre(2)}, static_cast<Index>(building_.items.size())});
+  std::vector<Box>& group_boxes = building_.group_boxes;
   std::vector<char> seen;
   for (Index i = 0; i < group.size(); ++i) {
     const Index g = group[i];
     if (g == no_index) continue;
-    if (g >= group_boxes_.size()) {
-      group_boxes_.resize(g + std::size_t{1});
+    if (g >= group_boxes.size()) {
+      group_boxes.resize(g + std::size_t{1});
       seen.resize(g + std::size_t{1}, 0);
     }
     if (seen[g]) {
-      group_boxes_[g].extend(boxes[i]);
+      group_boxes[g].extend(boxes[i]);
     } else {
-      group_boxes_[g] = boxes[i];
+      group_boxes[g] = boxes[i];
       seen[g] = 1;
     }
   }
+  items_.resize(boxes.size());
   nodes_.reserve(boxes.size());
-  nodes_.push_back({items_[0].box, 0, static_cast<Index>(boxes.size()), 0, group_boxes_.empty()});
+  nodes_.push_back({boxes[0], 0, static_cast<Index>(boxes.size()), 0, group_boxes.empty()});
   build_all(threads);
-  group_ = {};
-  group_boxes_.clear();
+  building_ = {};
+  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {  // children come after their parents
+    if (node->left == 0) continue;
+    node->box = nodes_[node->left].box;
+    node->box.extend(nodes_[node->left + 1].box);
+  }
 }
 
 // Builds nodes from the root down until there are enough subtrees for all threads, then each subtree on one
@@ -57,8 +65,10 @@ void AabbTree::build_all(const Threads& threads) {
     roots = std::move(below);
     if (roots.empty() || nodes_[roots[0]].count < kLeastSubtree) break;
   }
+  if (roots.size() == 1) return build_below(nodes_, roots[0]);
   std::vector<Nodes> subtrees(roots.size());
   parallel(threads, roots.size(), [&](std::size_t k) {
+    subtrees[k].reserve(nodes_[roots[k]].count);
     subtrees[k].push_back(nodes_[roots[k]]);
     build_below(subtrees[k], 0);
   });
@@ -83,20 +93,14 @@ void AabbTree::build_below(Nodes& nodes, Index node) {
 }
 
 bool AabbTree::overlaps_any(const Box& box) const {
-  if (items_.empty() || !nodes_[0].box.overlaps(box)) return false;
-  std::vector<Index> stack{0};
-  while (!stack.empty()) {
-    const Node& node = nodes_[stack.back()];
-    stack.pop_back();
-    if (!node.box.overlaps(box)) continue;
-    if (node.left != 0) {
-      stack.insert(stack.end(), {node.left + 1, node.left});
-    } else if (std::any_of(items_.begin() + node.first, items_.begin() + node.first + node.count,
-                           [&](const Item& item) { return item.box.overlaps(box); })) {
-      return true;
-    }
-  }
-  return false;
+  const auto overlaps = [&](const auto& self, Index k) -> bool {
+    const Node& node = nodes_[k];
+    if (!node.box.overlaps(box)) return false;
+    if (node.left != 0) return self(self, node.left) || self(self, node.left + 1);
+    return std::any_of(items_.begin() + node.first, items_.begin() + node.first + node.count,
+                       [&](const Item& item) { return item.box.overlaps(box); });
+  };
+  return !items_.empty() && overlaps(overlaps, 0);
 }
 
 std::vector<AabbTree::NodePair> AabbTree::divided(std::size_t count) const {
@@ -119,11 +123,9 @@ std::vector<AabbTree::NodePair> AabbTree::divided(std::size_t count) const {
   return pairs;
 }
 
-// Sets the node's box, and splits it if it holds more than a leaf may.
+// Splits a node that holds more than a leaf may; else fills the leaf.
 void AabbTree::build(Nodes& nodes, Index node) {
   Node current = nodes[node];
-  current.box = items_[current.first].box;
-  for (Index i = 1; i < current.count; ++i) current.box.extend(items_[current.first + i].box);
   if (current.count > kLeafItems) {
     const Index middle = partition(current);
     current.left = static_cast<Index>(nodes.size());
@@ -135,29 +137,39 @@ void AabbTree::build(Nodes& nodes, Index node) {
     part.count = current.count - (middle - current.first);
     nodes.push_back(part);
   } else {
-    // The order of the items depends on how a library partitions; their set does not.
-    std::sort(items_.begin() + current.first, items_.begin() + current.first + current.count,
-              [](const Item& a, const Item& b) { return a.id < b.id; });
+    fill_leaf(current);
   }
   nodes[node] = current;
 }
 
-double AabbTree::centre(const Node& node, const Item& item, std::size_t k) const {
-  if (node.one_group || group_[item.id] == no_index) return item.box.centre(k);
-  return group_boxes_[group_[item.id]].centre(k);
+void AabbTree::fill_leaf(Node& leaf) {
+  const auto begin = building_.items.begin() + leaf.first, end = begin + leaf.count;
+  // The order of the items depends on how a library partitions; their set does not.
+  std::sort(begin, end, [](const Centred& a, const Centred& b) { return a.id < b.id; });
+  leaf.box = building_.boxes[begin->id];
+  auto item = items_.begin() + leaf.first;
+  for (auto from = begin; from != end; ++from, ++item) {
+    *item = {building_.boxes[from->id], from->id};
+    leaf.box.extend(item->box);
+  }
+}
+
+double AabbTree::centre(const Node& node, const Centred& item, std::size_t k) const {
+  if (node.one_group || building_.group[item.id] == no_index) return item.centre[k];
+  return building_.group_boxes[building_.group[item.id]].centre(k);
 }
 
 // Divides the node's items along the longest axis of their centres' box; returns the first item of the second
 // part.
 Index AabbTree::partition(Node& node) {
-  const auto begin = items_.begin() + node.first, end = begin + node.count;
+  const auto begin = building_.items.begin() + node.first, end = begin + node.count;
   Box centres;
   const auto bound_centres = [&] {
     for (std::size_t k = 0; k < 3; ++k) centres.low[k] = centres.high[k] = centre(node, *begin, k);
     if (node.one_group) {
       for (auto item = begin + 1; item != end; ++item)
         for (std::size_t k = 0; k < 3; ++k) {
-          const double c = item->box.centre(k);
+          const double c = item->centre[k];
           centres.low[k] = std::min(centres.low[k], c);
           centres.high[k] = std::max(centres.high[k], c);
         }
@@ -180,25 +192,25 @@ Index AabbTree::partition(Node& node) {
     if (half(k) > half(axis) || centres.low[axis] == centres.high[axis]) axis = k;
   }
   const double cut = centres.centre(axis);
-  const auto is_first = [&](const Item& item) { return centre(node, item, axis) < cut; };
-  const auto is_first_alone = [&](const Item& item) { return item.box.centre(axis) < cut; };
+  const auto is_first = [&](const Centred& item) { return centre(node, item, axis) < cut; };
+  const auto is_first_alone = [&](const Centred& item) { return item.centre[axis] < cut; };
   auto middle =
       node.one_group ? std::partition(begin, end, is_first_alone) : std::partition(begin, end, is_first);
   const Index least = node.count / 8;
   if (static_cast<Index>(middle - begin) <= least || static_cast<Index>(end - middle) <= least) {
-    const auto key = [&](const Item& item) {
-      return std::pair(centre(node, item, axis), node.one_group ? item.id : group_[item.id]);
+    const auto key = [&](const Centred& item) {
+      return std::pair(centre(node, item, axis), node.one_group ? item.id : building_.group[item.id]);
     };
     middle = begin + node.count / 2;
-    std::nth_element(begin, middle, end, [&](const Item& a, const Item& b) { return key(a) < key(b); });
+    std::nth_element(begin, middle, end, [&](const Centred& a, const Centred& b) { return key(a) < key(b); });
     if (!node.one_group) {  // at the border of a group
       const auto pivot = key(*middle);
-      middle = std::partition(begin, end, [&](const Item& item) { return key(item) < pivot; });
+      middle = std::partition(begin, end, [&](const Centred& item) { return key(item) < pivot; });
       if (middle == begin)
-        middle = std::partition(begin, end, [&](const Item& item) { return !(pivot < key(item)); });
+        middle = std::partition(begin, end, [&](const Centred& item) { return !(pivot < key(item)); });
     }
   }
-  return static_cast<Index>(middle - items_.begin());
+  return static_cast<Index>(middle - building_.items.begin());
 }
 
 }  // namespace holdfast

@@ -86,6 +86,18 @@ class AabbTree {
   static constexpr Index kLeafItems = 4;
 
   using Nodes = std::vector<Node>;
+  // An item while the tree is built: half as large, and its centre is computed once.
+  struct Centred {
+    std::array<double, 3> centre;
+    Index id;
+  };
+  // What is needed while the tree is built.
+  struct Building {
+    std::span<const Box> boxes;
+    std::span<const Index> group;
+    std::vector<Box> group_boxes;
+    std::vector<Centred> items;
+  };
   void build_all(const Threads& threads);
   void build_below(Nodes& nodes, Index node);
   void build(Nodes& nodes, Index node);
@@ -94,12 +106,12 @@ class AabbTree {
   void for_each_part(NodePair pair, Push&& push) const;
   template <class Skip, class Visit>
   void for_each_item_below(const Node& node, Skip& skip, Visit& visit) const;
-  [[nodiscard]] double centre(const Node& node, const Item& item, std::size_t k) const;
+  void fill_leaf(Node& leaf);
+  [[nodiscard]] double centre(const Node& node, const Centred& item, std::size_t k) const;
 
   std::vector<Item> items_;
   std::vector<Node> nodes_;
-  std::span<const Index> group_;  // while building
-  std::vector<Box> group_boxes_;
+  Building building_;
 };
 
 // Calls push(a, b) for the pairs of children that replace a pair of nodes, not both leaves.
