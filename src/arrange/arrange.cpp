@@ -39,6 +39,16 @@ class Arranging {
   Arrangement run(std::vector<OffendingPair> pairs) {
     result_.pairs = pairs.size();
     tell_fitted(pairs);
+    try {
+      return arrange(std::move(pairs));
+    } catch (TooManyPoints& many) {
+      many.fitted = std::move(result_.fitted);
+      throw;
+    }
+  }
+
+ private:
+  Arrangement arrange(std::vector<OffendingPair> pairs) {
     std::sort(pairs.begin(), pairs.end());
     const FacetPlanes planes(complex_, elements_, facets_of(pairs), options_.threads);
     Meetings meetings = find_meetings(complex_, elements_, pairs, planes, pool_, step_, options_);
@@ -56,7 +66,6 @@ class Arranging {
     return std::move(result_);
   }
 
- private:
   void check_size() const {
     if (pool_.added() > options_.most_points) throw TooManyPoints(pool_.added());
   }

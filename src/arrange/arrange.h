@@ -77,6 +77,8 @@ class TooManyPoints : public std::exception {
  public:
   explicit TooManyPoints(std::size_t count) : count_(count) {}
   [[nodiscard]] std::size_t count() const { return count_; }
+  /// Arrangement::fitted, if all pairs had been found; else empty.
+  std::vector<std::uint8_t> fitted;
   [[nodiscard]] const char* what() const noexcept override { return "the arrangement has too many points"; }
 
  private:

@@ -321,7 +321,7 @@ void Ladder::begin_flat(const Plan& plan) {
   if (flat.state.facets == flattened_.facets && flat.state.vertices == flattened_.vertices) return;
   flattened_ = flat.state;
   if (!concerns_trouble(changed_facets(given_, flat.state))) return;
-  if (!proven_) proven_ = std::make_shared<const Proven>(rounded_.state);
+  if (proven_.empty()) proven_.begin(rounded_.state);
   Rounded before = std::move(rounded_);
   rounded_ = {false, std::move(flat.state), flat.displacement, false};
   Trouble now;
@@ -377,13 +377,14 @@ arrange::ArrangeOptions Ladder::at_most(std::size_t points) const {
 
 std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
   arrange::Arrangement arrangement;
-  if (proven_) proven_->tell(rounded_.state);
+  proven_.tell(rounded_.state);
   try {
     arrange::ArrangeOptions options = at_most(most_points);
     options.keeps_points = report_.rounds == 0 && options_.exact;
     arrangement = arrangement_of(rounded_.state, here(), options);
   } catch (const arrange::TooManyPoints& many) {
     if (report_.rounds == 0 && !is_plane_) throw;
+    if (!proven_.empty()) proven_.add(rounded_.state, many.fitted);
     too_many_ = many.count();
     return std::nullopt;
   }
@@ -395,6 +396,7 @@ std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
   }
   if (report_.rounds == 0 && options_.exact) exact_.surface = exact_surface(arrangement, exact_.of_given);
   if (before != nullptr) before->known = arrangement.fitted;
+  if (!proven_.empty()) proven_.add(rounded_.state, arrangement.fitted);
   const RoundSizes sizes(arrangement);
   tell_round(report_, sizes);
   rounded_.displacement = sum_above(rounded_.displacement, largest(arrangement.distances));

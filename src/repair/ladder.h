@@ -209,10 +209,10 @@ class Ladder {
   Rounded rounded_;
   Trouble trouble_;
   std::optional<OnceCut> once_cut_;
-  std::optional<Attempt> best_;           // of the plans so far
-  State flattened_;                       // by the last call of begin_flat
-  const State* before_ = nullptr;         // see compare_with
-  std::shared_ptr<const Proven> proven_;  // for attempts that start again from the given surface
+  std::optional<Attempt> best_;    // of the plans so far
+  State flattened_;                // by the last call of begin_flat
+  const State* before_ = nullptr;  // see compare_with
+  ProvenSets proven_;              // for attempts that start again from the given surface
 };
 
 }  // namespace holdfast::repairing

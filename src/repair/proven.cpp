@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "numbers/sorted.h"
 
@@ -11,11 +12,11 @@ Proven::Words Proven::words_of(const Point& p) {
   return std::bit_cast<Words>(Point{p[0] + 0.0, p[1] + 0.0, p[2] + 0.0});  // turns -0 into 0
 }
 
-Proven::Proven(const State& state) {
+Proven::Proven(const State& state, std::span<const std::uint8_t> known) {
   std::vector<Index> number(state.vertices.size(), no_index);
   Index points = 0;
-  for (std::size_t f = 0; f < state.known.size(); ++f) {
-    if (state.known[f] == 0) continue;
+  for (std::size_t f = 0; f < known.size(); ++f) {
+    if (known[f] == 0) continue;
     Triangle corners = state.facets[f];
     for (Index& v : corners) {
       if (number[v] == no_index) number[v] = points_.find_or_add(words_of(state.vertices[v]), points);
@@ -47,6 +48,19 @@ void Proven::tell(State& state) const {
   if (count(known) <= count(state.known)) return;
   state.known = std::move(known);
   state.knows_vertices = false;
+}
+
+void ProvenSets::add(const State& state, std::span<const std::uint8_t> fitted) {
+  constexpr std::size_t kFew = 8;  // a part of all: what is searched in no time need not be kept
+  const auto unknown = std::count(state.known.begin(), state.known.end(), std::uint8_t{0});
+  if (fitted.empty() || (!state.known.empty() && kFew * static_cast<std::size_t>(unknown) < fitted.size()))
+    return;
+  last_[0] = std::exchange(last_[1], std::make_shared<const Proven>(state, fitted));
+}
+
+void ProvenSets::tell(State& state) const {
+  for (const auto& proven : {first_, last_[0], last_[1]})
+    if (proven) proven->tell(state);
 }
 
 }  // namespace holdfast::repairing

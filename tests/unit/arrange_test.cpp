@@ -38,5 +38,23 @@ TEST(Arrange, EndsWithTooManyPairs) {
                TooManyPoints);
 }
 
+/// The next search need not compare what fitted, even if the arrangement is given up.
+TEST(Arrange, TellsWhatFittedIfThereAreTooManyPoints) {
+  const std::vector<Point> vertices{{0, 0, 0},   {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1},
+                                    {9, 9, 0.5}, {0, 0, 8}, {4, 0, 8}, {0, 4, 8}};
+  const std::vector<Triangle> facets{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  const Complex complex{vertices, facets, {}, {}, {}};
+  ArrangeOptions options;
+  options.most_points = 1;
+  try {
+    (void)arrange(
+        complex, elements_of(complex), [](double) {}, options);
+    FAIL() << "two points are too many";
+  } catch (const TooManyPoints& many) {
+    EXPECT_EQ(many.count(), 2u);
+    EXPECT_EQ(many.fitted, (std::vector<std::uint8_t>{0, 0, 1}));
+  }
+}
+
 }  // namespace
 }  // namespace holdfast::arrange
