@@ -50,9 +50,10 @@ struct ReadOptions : Limits {
 
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
-/// .off, .stl, .obj, .ply, .3mf, .amf, .gltf, .glb, .wrl (VRML), .dae, .ts (GOCAD), .gts, .dxf, .mesh, .meshb
-/// (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh (1, 2.x, 3, 4.0, 4.1), ASCII and binary where
-/// the format has both; each also compressed by gzip (.stl.gz). Lengths are in the file's own unit.
+/// .off, .stl, .obj, .ply, .3mf, .amf, .gltf, .glb, .wrl (VRML), .dae, .ts (GOCAD), .gts, .dxf, .ac (AC3D),
+/// .mesh, .meshb (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh (1, 2.x, 3, 4.0, 4.1), ASCII
+/// and binary where the format has both; each also compressed by gzip (.stl.gz). Lengths are in the file's
+/// own unit.
 /// - Coordinates keep their bits, including -0 and numbers that are not finite (`diagnose` reports them).
 /// - Vertices keep their indices, including vertices with identical coordinates (`mesh` and all else count
 ///   these as one, see Complex). But .stl has no indices: its distinct vertices are numbered in the order of

@@ -289,12 +289,10 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .mesh .meshb "
-          ".poly "
-          ".smesh "
-          ".node "
-          ".msh .vtu .vtp .vtk, each also .gz, and any other that `convert` reads); several files are "
-          "numbered one after the other; vertices with identical coordinates are one")
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .ac .mesh "
+          ".meshb .poly .smesh .node .msh .vtu .vtp .vtk, each also .gz, and any other that `convert` "
+          "reads); "
+          "several files are numbered one after the other; vertices with identical coordinates are one")
       ->transform(or_standard_input)
       ->required();
   command

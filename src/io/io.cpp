@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "io/ac3d_read.h"
 #include "io/cells.h"
 #include "io/endings.h"
 #include "io/file_bytes.h"
@@ -68,6 +69,7 @@ constexpr Format kFormats[] = {
     {".x3d", read_vrml, nullptr, nullptr},
     {".ts", read_gocad, nullptr, nullptr},
     {".gts", read_gts, nullptr, nullptr},
+    {".ac", read_ac3d, nullptr, nullptr},
     {".dae", read_dae, nullptr, nullptr},
     {".dxf", read_dxf, nullptr, nullptr},
     {".mesh", read_medit, read_medit, write_file<write_medit>, nullptr, false},
@@ -240,6 +242,14 @@ void tell_cells(MeshData& mesh, RemarkKind kind, const char* what) {
     mesh.remarks.push_back({kind, count, words_of(mesh.cells) + (count == 1 ? " is " : " are ") + what});
 }
 
+/// What was left out explains why nothing is there.
+[[noreturn]] void refuse_empty(const Source& source, const MeshData& mesh) {
+  std::string message = "the file holds no vertices";
+  for (const Remark& remark : mesh.remarks)
+    if (remark.kind == RemarkKind::left_out) message += "; " + remark.message;
+  throw FileError(source.path, "", message);
+}
+
 double tolerance_of(const ReadOptions& options) {
   if (!(options.tolerance >= 0) || std::isinf(options.tolerance))
     throw std::invalid_argument("the tolerance for polygons must be finite and not negative");
@@ -250,7 +260,7 @@ double tolerance_of(const ReadOptions& options) {
 
 MeshData parse_surface(const Source& source, std::string_view format) {
   MeshData mesh = surface_format(source.path, format).surface(source);
-  if (mesh.vertices.empty()) throw FileError(source.path, "", "the file holds no vertices");
+  if (mesh.vertices.empty()) refuse_empty(source, mesh);
   settle_quadrangles(mesh);
   settle_mid_nodes(mesh, false);
   tell_polygons(mesh);

@@ -1,7 +1,7 @@
 // STL, ASCII and binary (3D Systems, StereoLithography Interface Specification, 1989).
 //
-// Vertices with identical coordinates are merged, because the format repeats them in every triangle. If an
-// ASCII file has several solids, the marker of a facet is its solid's number from 1, named after the solid.
+// Vertices with identical coordinates are merged, because the format repeats them in every triangle. If a
+// file has several solids, the marker of a facet is its solid's number from 1, named after the solid.
 #include <algorithm>
 #include <array>
 
@@ -33,6 +33,57 @@ bool is_binary(std::string_view bytes) {
   return bytes.find('\0') <= bytes.find_last_not_of('\0') && bytes.find('\0') != std::string_view::npos;
 }
 
+/// Where the triangles of a solid begin, and how many there are.
+struct BinarySolid {
+  std::size_t begin;
+  std::uint32_t count;
+};
+
+/// The solids of a file that is several binary files one after the other, as CAD Exchanger writes parts;
+/// empty if the headers do not lead to the very end of the file.
+std::vector<BinarySolid> solids_in_a_row(std::string_view bytes) {
+  std::vector<BinarySolid> solids;
+  std::size_t at = 0;
+  while (bytes.size() - at >= kHeader + 4) {
+    const std::uint32_t count = announced(bytes.substr(at));
+    at += kHeader + 4;
+    if ((bytes.size() - at) / kRecord < count) return {};
+    solids.push_back({at, count});
+    at += kRecord * std::size_t{count};
+  }
+  return at == bytes.size() && solids.size() > 1 ? solids : std::vector<BinarySolid>{};
+}
+
+void read_triangles(const Source& source, const BinarySolid& solid, Welder& weld, MeshData& mesh) {
+  // A batch of points is decoded and prefetched before the first lookup.
+  constexpr std::uint32_t kBatch = 16;
+  std::array<Point, 3 * kBatch> points;
+  std::array<std::uint64_t, 3 * kBatch> hashes;
+  const char* record = source.bytes.data() + solid.begin;
+  for (std::uint32_t first = 0; first < solid.count; first += kBatch) {
+    beat(source.watch);
+    const std::size_t corners = 3 * std::size_t{std::min(kBatch, solid.count - first)};
+    for (std::size_t i = 0; i < corners; ++i) {
+      const char* corner = record + kRecord * (i / 3) + 12 * (i % 3 + 1);  // after the normal's 12 bytes
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        points[i][axis] = load<float>(corner + 4 * axis, std::endian::little);
+      hashes[i] = weld.announce(points[i]);
+    }
+    for (std::size_t i = 0; i < corners; i += 3)
+      mesh.facets.push_back({weld.add(points[i], hashes[i]), weld.add(points[i + 1], hashes[i + 1]),
+                             weld.add(points[i + 2], hashes[i + 2])});
+    record += kRecord * kBatch;
+  }
+}
+
+std::size_t attributes_of(const Source& source, const BinarySolid& solid) {
+  const char* const attributes = source.bytes.data() + solid.begin + kRecord - 2;
+  std::size_t set = 0;
+  for (std::size_t i = 0; i < solid.count; ++i)
+    set += load<std::uint16_t>(attributes + kRecord * i, std::endian::little) != 0 ? 1 : 0;
+  return set;
+}
+
 MeshData read_binary(const Source& source) {
   ByteReader bytes(source, std::endian::little, kHeader);
   auto count = bytes.read<std::uint32_t>();
@@ -47,39 +98,32 @@ MeshData read_binary(const Source& source) {
     count = static_cast<std::uint32_t>(whole);
   }
   bytes.require_items(count, kRecord, "triangles");
-  const std::uint64_t behind = bytes.left() - kRecord * std::uint64_t{count};
+  std::uint64_t behind = bytes.left() - kRecord * std::uint64_t{count};
+  std::vector<BinarySolid> solids = {{bytes.position(), count}};
+  if (behind >= kHeader + 4) {
+    if (std::vector<BinarySolid> row = solids_in_a_row(source.bytes); !row.empty()) {
+      solids = std::move(row);
+      behind = 0;
+    }
+  }
   if (behind >= kRecord)
     bytes.fail("the header announces " + counted(count, "triangle") + ", but " +
                counted(behind, "more byte follows", "more bytes follow") + (count == 1 ? " it" : " them"));
-  mesh.facets.reserve(count);
-  mesh.vertices.reserve(count / 2);
-  Welder weld(mesh.vertices, count / 2);  // a closed surface has half as many vertices as facets
-  // A batch of points is decoded and prefetched before the first lookup.
-  constexpr std::uint32_t kBatch = 16;
-  std::array<Point, 3 * kBatch> points;
-  std::array<std::uint64_t, 3 * kBatch> hashes;
-  const char* record = source.bytes.data() + bytes.position();
-  for (std::uint32_t first = 0; first < count; first += kBatch) {
-    beat(source.watch);
-    const std::size_t corners = 3 * std::size_t{std::min(kBatch, count - first)};
-    for (std::size_t i = 0; i < corners; ++i) {
-      const char* corner = record + kRecord * (i / 3) + 12 * (i % 3 + 1);  // after the normal's 12 bytes
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        points[i][axis] = load<float>(corner + 4 * axis, std::endian::little);
-      hashes[i] = weld.announce(points[i]);
-    }
-    for (std::size_t i = 0; i < corners; i += 3)
-      mesh.facets.push_back({weld.add(points[i], hashes[i]), weld.add(points[i + 1], hashes[i + 1]),
-                             weld.add(points[i + 2], hashes[i + 2])});
-    record += kRecord * kBatch;
+  std::size_t all = 0, attributes = 0;
+  for (const BinarySolid& solid : solids) all += solid.count;
+  mesh.facets.reserve(all);
+  mesh.vertices.reserve(all / 2);
+  Welder weld(mesh.vertices, all / 2);  // a closed surface has half as many vertices as facets
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    read_triangles(source, solids[s], weld, mesh);
+    attributes += attributes_of(source, solids[s]);
+    for (std::size_t f = mesh.facets.size() - solids[s].count; solids.size() > 1 && f < mesh.facets.size();
+         ++f)
+      mesh.facet_markers.add(f, static_cast<int>(s) + 1);
   }
-  const char* const attributes = source.bytes.data() + kHeader + 4 + kRecord - 2;
-  std::size_t set = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    set += load<std::uint16_t>(attributes + kRecord * i, std::endian::little) != 0 ? 1 : 0;
-  mesh.leave_out(set, "attributes of triangles (colours, perhaps)",
+  mesh.leave_out(attributes, "attributes of triangles (colours, perhaps)",
                  "attribute of a triangle (its colour, perhaps)");
-  mesh.leave_out(behind, "bytes after the triangles", "byte after the triangles");
+  mesh.leave_out(static_cast<std::size_t>(behind), "bytes after the triangles", "byte after the triangles");
   return mesh;
 }
 

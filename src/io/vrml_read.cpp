@@ -69,7 +69,9 @@ class VrmlReader {
     for (const VrmlNode* root : scene_.roots()) visit(*root, state, {});
     MeshData mesh = solids_.take();
     mesh.polygon_counts = polygon_counts_;
-    mesh.leave_out(left_out_, "shapes that are no sets of faces", "shape that is no set of faces");
+    mesh.leave_out(
+        left_out_, [](const std::string& type) { return type; }, "shapes that are no sets of faces",
+        "shape that is no set of faces");
     mesh.leave_out(inlines_, "scenes of other files", "scene of another file");
     mesh.leave_out(own_kinds_, "nodes of kinds that the file defines",
                    "node of a kind that the file defines");
@@ -137,8 +139,8 @@ class VrmlReader {
       put(node, *state.coordinates, state.is_clockwise, state.placement, name);
     } else if (type == "WWWInline") {
       ++inlines_;
-    } else {
-      left_out_ += is_shape(type) ? 1 : 0;
+    } else if (is_shape(type)) {
+      ++left_out_[type];
     }
   }
 
@@ -166,7 +168,7 @@ class VrmlReader {
     } else if (type == "Inline") {
       ++inlines_;
     } else if (is_shape(type)) {
-      ++left_out_;
+      ++left_out_[type];
     } else {
       own_kinds_ += is_known(type) ? 0 : 1;
     }
@@ -277,7 +279,8 @@ class VrmlReader {
   Source part_source_;
   Solids solids_;
   std::map<std::tuple<const VrmlNode*, const VrmlNode*, bool>, Solid> solids_of_;
-  std::size_t depth_ = 0, visits_ = 0, left_out_ = 0, inlines_ = 0, own_kinds_ = 0;
+  std::size_t depth_ = 0, visits_ = 0, inlines_ = 0, own_kinds_ = 0;
+  std::map<std::string, std::size_t> left_out_;  ///< shapes that are no sets of faces, by their type
   PolygonCounts polygon_counts_;
 };
 

@@ -13,29 +13,13 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<std::array<const char*, 2>, 23> kFormats{{{".off"},
-                                                               {".stl"},
-                                                               {".obj"},
-                                                               {".ply"},
-                                                               {".mesh"},
-                                                               {".meshb"},
-                                                               {".poly", ".node"},
-                                                               {".smesh", ".node"},
-                                                               {".node"},
-                                                               {".vtu"},
-                                                               {".vtp"},
-                                                               {".vtk"},
-                                                               {".msh"},
-                                                               {".stl.gz"},
-                                                               {".3mf"},
-                                                               {".amf"},
-                                                               {".ts"},
-                                                               {".gltf"},
-                                                               {".glb"},
-                                                               {".wrl"},
-                                                               {".gts"},
-                                                               {".dxf"},
-                                                               {".dae"}}};
+constexpr std::array<std::array<const char*, 2>, 24> kFormats{
+    {{".off"},  {".stl"},    {".obj"},           {".ply"},
+     {".mesh"}, {".meshb"},  {".poly", ".node"}, {".smesh", ".node"},
+     {".node"}, {".vtu"},    {".vtp"},           {".vtk"},
+     {".msh"},  {".stl.gz"}, {".3mf"},           {".amf"},
+     {".ts"},   {".gltf"},   {".glb"},           {".wrl"},
+     {".gts"},  {".dxf"},    {".dae"},           {".ac"}}};
 
 void require_in_range(const Surface& surface) {
   for (const Triangle& f : surface.facets)

@@ -74,7 +74,8 @@ TEST_F(Gltf, WithoutScenesOrNodes) {
   EXPECT_EQ(surface(gltf(R"("nodes":[{"mesh":0},{"children":[0],"translation":[1,0,0]}])")).vertices[0],
             (Point{1, 0, 0}));
   EXPECT_EQ(surface(gltf(R"("extras":{})")).facets, kFacets);
-  EXPECT_EQ(error(gltf(R"("scenes":[{}],"nodes":[{"mesh":0}])")), "the file holds no vertices");
+  EXPECT_EQ(error(gltf(R"("scenes":[{}],"nodes":[{"mesh":0}])")),
+            "the file holds no vertices; 1 mesh that is not in the scene is left out");
 }
 
 TEST_F(Gltf, ModesOfPrimitives) {

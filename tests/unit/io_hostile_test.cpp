@@ -49,6 +49,7 @@ std::vector<Sample> valid_files() {
                                {".amf", kSmallAmf},
                                {".ts", kGocad},
                                {".gts", kGts},
+                               {".ac", kAc3d},
                                {".dxf", kDxf},
                                {".dae", small_dae()},
                                {".wrl", kVrml1},

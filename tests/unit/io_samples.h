@@ -269,6 +269,11 @@ inline const char* const kDxf =
     "VERTEX\n70\n192\n10\n0\n0\nVERTEX\n70\n192\n10\n1\n0\nVERTEX\n70\n192\n20\n1\n0\nVERTEX\n70\n128\n71\n1"
     "\n72\n2\n"
     "73\n-3\n0\nSEQEND\n0\nENDSEC\n0\nEOF\n";
+inline const char* const kAc3d =
+    "AC3Db\nMATERIAL \"red\" rgb 1 0 0\nOBJECT world\nkids 2\nOBJECT group\nloc 1 2 3\nkids 1\nOBJECT poly\n"
+    "name \"a\"\ndata 2\n{}\nrot 0 1 0 -1 0 0 0 0 1\nnumvert 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnumsurf 2\n"
+    "SURF 0x10\nmat 0\nrefs 4\n0 0 0\n1 0 0\n2 0 0\n3 0 0\nSURF 0x24\nrefs 4\n3 0 0\n2 0 0\n1 0 0\n0 0 0\n"
+    "kids 0\nOBJECT poly\nnumvert 1\n5 5 5\nkids 0\n";
 inline const char* const kGts =
     "# tetrahedron\n4 6 4 GtsSurface GtsFace GtsEdge GtsVertex\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2\n2 3\n3 1\n1 "
     "4\n2 "

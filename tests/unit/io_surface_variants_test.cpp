@@ -101,6 +101,19 @@ TEST_F(SurfaceVariants, StlWhoseHeaderDoesNotKnowTheNumber) {
   EXPECT_EQ(error(whole.substr(0, 80) + std::string(4, '\0'), "a.stl"), "the file holds no vertices");
 }
 
+TEST_F(SurfaceVariants, BinaryStlOfSeveralSolids) {
+  const std::string one = binary_stl("one", {{0, 0, 0, 1, 0, 0, 0, 1, 0}});
+  const std::string two = binary_stl("two", {{0, 0, 0, 0, 1, 0, 0, 0, 1}, {5, 0, 0, 6, 0, 0, 5, 1, 0}});
+  const Surface s = surface(one + two, "a.stl");
+  EXPECT_EQ(s.facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(s.facet_markers, (std::vector<int>{1, 2, 2}));
+  EXPECT_TRUE(s.remarks.empty());
+  EXPECT_EQ(error(one + two + "more", "a.stl"),
+            "byte 84: the header announces 1 triangle, but 188 more bytes follow it");
+  EXPECT_EQ(error(one + two.substr(0, two.size() - 1), "a.stl"),
+            "byte 84: the header announces 1 triangle, but 183 more bytes follow it");
+}
+
 TEST_F(SurfaceVariants, ColoursOfVerticesInObj) {
   const Surface s = surface("v 0 0 0 1 0.5 0\nv 1 0 0 2\nv 0 1 0 1.0\nf 1 2 3\n", "a.obj");
   EXPECT_EQ(s.facets.size(), 1u);

@@ -37,7 +37,7 @@ TEST_F(Vrml, FacesStandWhereTheScenePlacesThem) {
   EXPECT_EQ(s.vertices[8 + 2], (Point{-1, -1, 0}));
   EXPECT_EQ(s.names.facets, (std::map<int, std::string>{{1, "cube"}, {2, "cube"}}));
   EXPECT_EQ(remarks(s),
-            (std::vector<std::string>{"1 shape that is no set of faces is left out",
+            (std::vector<std::string>{"1 shape that is no set of faces (Box) is left out",
                                       "1 scene of another file is left out",
                                       "1 node of a kind that the file defines is left out",
                                       "6 polygons of more than three corners are cut into triangles"}));
@@ -49,6 +49,11 @@ TEST_F(Vrml, FacesStandWhereTheScenePlacesThem) {
   EXPECT_EQ(result.report.regions, 2u);
 }
 
+TEST_F(Vrml, WithoutFacesTheErrorSaysWhatIsThere) {
+  EXPECT_EQ(error("#VRML V2.0 utf8\nShape { geometry Box { } } Shape { geometry Cone { } }\n"),
+            "the file holds no vertices; 2 shapes that are no sets of faces (Box, Cone) are left out");
+}
+
 TEST_F(Vrml, TheFirstVersionHasAState) {
   const Surface s = surface(kVrml1);
   ASSERT_EQ(s.facets.size(), 9u);
@@ -57,7 +62,8 @@ TEST_F(Vrml, TheFirstVersionHasAState) {
   EXPECT_EQ(s.vertices[4 + 3], (Point{0, 7, 3}));
   EXPECT_EQ(s.vertices[8 + 1], (Point{1, 0, 0}));
   EXPECT_EQ(s.names.facets, (std::map<int, std::string>{{1, "one"}, {2, "one"}, {3, "last"}}));
-  EXPECT_EQ(remarks(s), (std::vector<std::string>{"2 shapes that are no sets of faces are left out"}));
+  EXPECT_EQ(remarks(s),
+            (std::vector<std::string>{"2 shapes that are no sets of faces (Cube, Sphere) are left out"}));
 }
 
 TEST_F(Vrml, ErrorsNameTheLine) {
@@ -144,7 +150,7 @@ TEST(X3d, TransformsNamesUsesAndChoices) {
   EXPECT_EQ(s.facets.size(), 4U);
   EXPECT_EQ(s.vertices[1], (Point{2, 0, 5}));
   ASSERT_EQ(s.remarks.size(), 1U);
-  EXPECT_EQ(s.remarks[0].message, "1 shape that is no set of faces is left out");
+  EXPECT_EQ(s.remarks[0].message, "1 shape that is no set of faces (Sphere) is left out");
 }
 
 TEST(X3d, ErrorsNameTheLine) {
