@@ -30,6 +30,13 @@ bool is_rounded_once(const State& state, const RepairReport& report) {
   });
 }
 
+/// Welding adds vertices. The surface is compared with the given one by the numbers of its vertices, which
+/// only those of the input keep, so all of them count as such until the end.
+State with_all_of_input(State state) {
+  state.input_vertices = state.vertices.size();
+  return state;
+}
+
 /// The rounding of an exact arrangement, which is close to the given surface in the end.
 class ArrangedRounding {
  public:
@@ -44,13 +51,16 @@ class ArrangedRounding {
         trials_(trials),
         repeated_(merge_repeated(state)),
         of_given_(std::exchange(state.facet_parents, identity(state.facets.size()))),
-        given_(std::move(state)) {}
+        input_vertices_(state.input_vertices),
+        given_(with_all_of_input(std::move(state))) {}
 
   Rounded run() {
     Rounded rounded = climb();
     report_.pairs += repeated_;
     if (rounded.is_valid) follow_given(rounded);
     rounded.state.facet_parents = composed(of_given_, std::move(rounded.state.facet_parents));
+    rounded.state.input_vertices = input_vertices_;
+    if (input_vertices_ < given_.vertices.size()) drop_unused(rounded.state);
     return rounded;
   }
 
@@ -119,6 +129,7 @@ class ArrangedRounding {
   const std::size_t repeated_;  // facets that were copies of others
   // Facets are compared with the facets before welding, which are parts of the input's.
   const Parents of_given_;
+  const std::size_t input_vertices_;
   const State given_;
   RoundedPlanes planes_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "holdfast/repair.h"
+#include "repair/rounding.h"
 #include "small_surfaces.h"
 
 namespace holdfast {
@@ -35,6 +36,29 @@ TEST(RepairWithWeld, PartsOfWeldedFacetsNameTheFacetsOfTheInput) {
     EXPECT_EQ(parts[1], 1u);
     EXPECT_GE(parts[2], 2u);
   }
+}
+
+// Rounding leaves out vertices that nothing uses, but for those of the input, and then numbers the others
+// anew. With the numbers of before, it read far beyond the vertices that are left.
+TEST(RepairWithWeld, VerticesThatWeldingAddsAreComparedByTheirPlace) {
+  constexpr Index kUnused = 64;
+  Surface surface;
+  surface.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  for (Index k = 0; k < kUnused; ++k) surface.vertices.push_back({9, 9, 9.0 + k});
+  surface.vertices.insert(surface.vertices.end(), {{1, 1, -1}, {1, 1, 1.5}, {1.5, 0.5, 1}});
+  surface.facets = {{0, 1, 2}, {kUnused + 3, kUnused + 4, kUnused + 5}};
+  repairing::State state = repairing::state_of(surface.view());
+  state.input_vertices = 3;
+  RepairOptions options;
+  options.join = 1e-12;  // compares the surface with the given one
+  RepairReport report;
+  ExactSurface exact;
+  const repairing::Rounded rounded = repairing::round_arranged(
+      std::move(state), options, report, exact, [](double) {}, Threads(1));
+  ASSERT_TRUE(rounded.is_valid);
+  EXPECT_EQ(rounded.state.facets.size(), 8U);
+  EXPECT_EQ(rounded.state.vertices.size(), 8U);
+  EXPECT_EQ(rounded.state.input_vertices, 3U);
 }
 
 // Two patches that divide their common curve differently: their sides pass each other between the vertices.
