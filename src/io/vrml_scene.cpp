@@ -1,6 +1,7 @@
 #include "io/vrml_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "io/labels.h"
@@ -55,8 +56,11 @@ void VrmlScene::read_head() {
   if (source_.bytes.starts_with("\xEF\xBB\xBF")) position_ = 3;
   const std::string_view text = source_.bytes.substr(position_);
   is_first_version_ = text.starts_with("#VRML V1.0");
-  if (!is_first_version_ && !text.starts_with("#VRML V2.0"))
-    errors_.fail_at(0, "a VRML file begins with '#VRML V1.0 ascii' or '#VRML V2.0 utf8'; this one does not");
+  is_x3d_ = text.starts_with("#X3D V");
+  if (!is_first_version_ && !is_x3d_ && !text.starts_with("#VRML V2.0"))
+    errors_.fail_at(0,
+                    "a VRML file begins with '#VRML V1.0 ascii', '#VRML V2.0 utf8' or '#X3D V3.0 utf8'; this "
+                    "one does not");
 }
 
 void VrmlScene::skip_blanks() {
@@ -126,8 +130,36 @@ void VrmlScene::skip_to_end() {
   }
 }
 
+/// Skips a statement of X3D that is no node, or a field that a node declares (ISO/IEC 19776-2, 4.2): so many
+/// words follow its keyword.
+bool VrmlScene::skip_x3d_statement(std::string_view word) {
+  struct Statement {
+    std::string_view keyword;
+    std::size_t words;
+  };
+  static constexpr Statement kStatements[] = {
+      {"PROFILE", 1}, {"COMPONENT", 1}, {"META", 2},       {"UNIT", 3},        {"EXPORT", 1},
+      {"IMPORT", 1},  {"inputOnly", 2}, {"outputOnly", 2}, {"inputOutput", 2}, {"initializeOnly", 2}};
+  const auto found = std::find_if(std::begin(kStatements), std::end(kStatements),
+                                  [&](const Statement& s) { return s.keyword == word; });
+  if (!is_x3d_ || found == std::end(kStatements)) return false;
+  for (std::size_t i = 0; i < found->words; ++i)
+    if (const Token token = next(); token.kind == Token::Kind::end || token.kind == Token::Kind::sign)
+      fail(token, "expected what belongs to " + in_quotes(word) + ", found " + in_quotes(token.text));
+  if (const Token as = peek(); (word == "EXPORT" || word == "IMPORT") && as.text == "AS") {
+    next();
+    static_cast<void>(expect("a name"));
+  }
+  if (word == "inputOutput" || word == "initializeOnly") {
+    VrmlField value;
+    read_value(value);
+  }
+  return true;
+}
+
 /// Skips a statement that is no node: prototypes, which are not read, and event routes.
 bool VrmlScene::skip_statement(std::string_view word) {
+  if (skip_x3d_statement(word)) return true;
   if (word == "ROUTE") {
     for (const char* what : {"what a route begins with", "TO", "what a route leads to"})
       static_cast<void>(expect(what));
@@ -192,7 +224,17 @@ const VrmlNode* VrmlScene::read_body(const Token& type, std::string name) {
     }
   }
   --depth_;
+  if (is_x3d_) turn_into_vrml(node);
   return &nodes_.emplace_back(std::move(node));
+}
+
+/// X3D calls the nodes of all groups children.
+void VrmlScene::turn_into_vrml(VrmlNode& node) {
+  node.type = type_in_x3d(node.type);
+  for (const auto& [type, usual] : {std::pair("Switch", "choice"), std::pair("LOD", "level")})
+    if (node.type == type && node.fields.contains("children"))
+      node.fields[usual] = std::move(node.fields["children"]);
+  close(node);
 }
 
 void VrmlScene::read_value(VrmlField& field) {

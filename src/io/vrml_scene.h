@@ -1,5 +1,6 @@
 // The nodes of a VRML file in versions 1.0 and 2.0 (ISO/IEC 14772-1, VRML97): nodes of any type, parsed by
-// their braces and fields. X3D in XML is read as the nodes of VRML97 that it stands for.
+// their braces and fields. X3D, in XML and in VRML's syntax, is read as the nodes of VRML97 that it stands
+// for.
 #pragma once
 
 #include <deque>
@@ -53,8 +54,11 @@ class VrmlScene {
   /// The scene of an X3D file (vrml_x3d.cpp).
   void read_xml();
   VrmlNode* open_node(const XmlReader& xml, const XmlTag& tag, VrmlNode* around);
+  /// The kind of node as which a kind of X3D is read.
+  [[nodiscard]] static std::string type_in_x3d(const std::string& name);
   static void read_numbers(const XmlReader& xml, const XmlTag& tag, std::string_view text, VrmlField& field);
   void close(VrmlNode& node);
+  void turn_into_vrml(VrmlNode& node);
   void skip_blanks();
   Token next();
   [[nodiscard]] Token peek();
@@ -62,6 +66,7 @@ class VrmlScene {
   [[nodiscard]] double number(const Token& token) const;
   /// To be called after the opening bracket or brace.
   void skip_to_end();
+  bool skip_x3d_statement(std::string_view word);
   bool skip_statement(std::string_view word);
   [[nodiscard]] const VrmlNode* read_node(const Token& first);
   [[nodiscard]] const VrmlNode* read_body(const Token& type, std::string name);
@@ -73,7 +78,7 @@ class VrmlScene {
   Source source_;
   TextReader errors_;
   std::size_t position_ = 0, depth_ = 0;
-  bool is_first_version_ = false;
+  bool is_first_version_ = false, is_x3d_ = false;
   std::deque<VrmlNode> nodes_;
   std::map<std::string, const VrmlNode*, std::less<>> named_;
   std::vector<const VrmlNode*> roots_;

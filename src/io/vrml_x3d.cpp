@@ -1,5 +1,6 @@
 // Reads X3D in XML (ISO/IEC 19776-1) as the scene of VRML97 nodes that it stands for: sets of triangles and
-// quadrangles become indexed face sets, and kinds of nodes that are not known become groups.
+// quadrangles become indexed face sets, and kinds of nodes that are not known become groups. So do the nodes
+// of X3D in VRML's syntax (ISO/IEC 19776-2).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,13 +49,6 @@ const FaceSet* face_set(std::string_view type) {
   return found == std::end(kFaceSets) ? nullptr : found;
 }
 
-/// The kind of node by which an element is read.
-std::string type_of(const std::string& name) {
-  if (face_set(name) != nullptr || is_one_of(name, kOthers)) return name;
-  if (name == "Coordinate" || name == "CoordinateDouble") return "Coordinate";
-  return is_one_of(name, kLeftOut) ? "PointSet" : "Group";
-}
-
 /// The field of a node around it to which a node belongs.
 std::string_view field_in(std::string_view around, std::string_view type) {
   if (around == "Shape") return type == "Group" ? "appearance" : "geometry";
@@ -63,6 +57,12 @@ std::string_view field_in(std::string_view around, std::string_view type) {
 }
 
 }  // namespace
+
+std::string VrmlScene::type_in_x3d(const std::string& name) {
+  if (face_set(name) != nullptr || is_one_of(name, kOthers)) return name;
+  if (name == "Coordinate" || name == "CoordinateDouble") return "Coordinate";
+  return is_one_of(name, kLeftOut) ? "PointSet" : "Group";
+}
 
 void VrmlScene::read_xml() {
   XmlReader xml(source_);
@@ -96,7 +96,7 @@ void VrmlScene::read_xml() {
 
 VrmlNode* VrmlScene::open_node(const XmlReader& xml, const XmlTag& tag, VrmlNode* around) {
   VrmlNode& node = nodes_.emplace_back();
-  node.type = type_of(tag.name);
+  node.type = type_in_x3d(tag.name);
   node.position = tag.position;
   node.name = unescaped(tag.attribute("DEF"));
   const VrmlNode* placed = &node;

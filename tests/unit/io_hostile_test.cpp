@@ -54,6 +54,7 @@ std::vector<Sample> valid_files() {
                                {".dae", small_dae()},
                                {".wrl", kVrml1},
                                {".wrl", kVrml2},
+                               {".x3dv", kX3dv},
                                {".inp", kAssembly},
                                {".gltf", gltf()},
                                {".glb", glb(gltf_json(""), gltf_buffer())}};

@@ -69,7 +69,8 @@ TEST_F(Vrml, TheFirstVersionHasAState) {
 TEST_F(Vrml, ErrorsNameTheLine) {
   const std::string text = kVrml2;
   EXPECT_EQ(error(replaced(text, "#VRML V2.0", "#VRML V3.0")),
-            "line 1: a VRML file begins with '#VRML V1.0 ascii' or '#VRML V2.0 utf8'; this one does not");
+            "line 1: a VRML file begins with '#VRML V1.0 ascii', '#VRML V2.0 utf8' or '#X3D V3.0 utf8'; this "
+            "one does not");
   EXPECT_EQ(error(replaced(text, "1 2 6 5 -1", "1 2 6 8 -1")),
             "line 13: a face names point 8, but there are 8");
   EXPECT_EQ(error(replaced(text, "1 2 6 5 -1", "1 2 6 0.5 -1")),
@@ -151,6 +152,37 @@ TEST(X3d, TransformsNamesUsesAndChoices) {
   EXPECT_EQ(s.vertices[1], (Point{2, 0, 5}));
   ASSERT_EQ(s.remarks.size(), 1U);
   EXPECT_EQ(s.remarks[0].message, "1 shape that is no set of faces (Sphere) is left out");
+}
+
+/// A scene of X3D in VRML's syntax.
+Surface x3dv(const std::string& scene) {
+  const TemporaryFolder folder;
+  put(folder / "a.x3dv",
+      "#X3D V3.0 utf8\nPROFILE Immersive\nCOMPONENT Geometry3D:2\nMETA \"a\" \"b\"\nUNIT angle degree "
+      "0.017\n" +
+          scene);
+  return read_surface(folder / "a.x3dv");
+}
+
+TEST(X3d, InTheSyntaxOfVrml) {
+  const std::string points = "coord Coordinate { point [0 0 0, 1 0 0, 1 1 0, 0 1 0] }";
+  const std::vector<Triangle> two{{0, 1, 2}, {0, 2, 3}};
+  for (const std::string& set :
+       {"IndexedFaceSet { coordIndex [0 1 2 -1 0 2 3 -1] " + points + " }",
+        "IndexedTriangleSet { index [0 1 2 0 2 3] " + points + " }", "QuadSet { " + points + " }"}) {
+    const Surface s = x3dv("DEF part Transform { translation 1 0 0 children Shape { geometry " + set +
+                           " } }\nEXPORT part AS b\n"
+                           "DEF new Effect { inputOutput SFVec3f a 0 1 0 inputOnly SFTime time parts [ ] }");
+    EXPECT_EQ(s.facets, two) << set;
+    EXPECT_EQ(s.vertices[2], (Point{2, 1, 0}));
+  }
+  const std::string shape = "Shape { geometry QuadSet { " + points + " } }";
+  EXPECT_EQ(
+      x3dv("Switch { whichChoice 1 children [ Group { children [" + shape + shape + "] } " + shape + " ] }")
+          .facets.size(),
+      2U);
+  EXPECT_EQ(x3dv("LOD { children [" + shape + " " + shape + " ] }").facets.size(), 2U);
+  EXPECT_EQ(refusal_of([&] { x3dv("META \"a\" }"); }), "line 6: expected what belongs to 'META', found '}'");
 }
 
 TEST(X3d, ErrorsNameTheLine) {

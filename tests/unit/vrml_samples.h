@@ -56,4 +56,13 @@ Separator {
   DEF last IndexedFaceSet { coordIndex [ 0, 1, 2 ] }
 })";
 
+/// X3D in the syntax of VRML97.
+inline const char* const kX3dv =
+    "#X3D V3.0 utf8\nPROFILE Immersive\nCOMPONENT Geometry3D:2\nMETA \"a\" \"b\"\nUNIT angle degree 0.017\n"
+    "DEF part Transform { translation 1 0 0 children [ Shape { geometry IndexedTriangleSet { index [0 1 2 0 "
+    "2 "
+    "3]\ncoord Coordinate { point [0 0 0, 1 0 0, 1 1 0, 0 1 0] } } }\nSwitch { whichChoice 0 children Group "
+    "{ } } "
+    "] }\nEXPORT part AS b\nDEF new Effect { inputOutput SFVec3f a 0 1 0 inputOnly SFTime time parts [ ] }\n";
+
 }  // namespace holdfast::samples
