@@ -44,10 +44,11 @@ AabbTree::AabbTree(std::span<const Box> boxes, std::span<const Index> group, con
   nodes_.push_back({boxes[0], 0, static_cast<Index>(boxes.size()), 0, group_boxes.empty()});
   build_all(threads);
   building_ = {};
-  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {  // children come after their parents
-    if (node->left == 0) continue;
-    node->box = nodes_[node->left].box;
-    node->box.extend(nodes_[node->left + 1].box);
+  for (std::size_t k = nodes_.size(); k-- > 0;) {  // children come after their parents
+    Node& node = nodes_[k];
+    if (node.left == 0) continue;
+    node.box = nodes_[node.left].box;
+    node.box.extend(nodes_[node.left + 1].box);
   }
 }
 
