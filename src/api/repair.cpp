@@ -151,8 +151,7 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
     // Welding turns what is thinner than the tolerance into a line, which is lost unless other facets contain
     // it.
     const double most = rounded.displacement + welded;
-    rounded.displacement =
-        repairing::covered_within(rounded.state, repairing::state_of(complex), most, step).value_or(most);
+    rounded.displacement = repairing::cover_distance(rounded.state, repairing::state_of(complex), most, step);
   }
   repairing::Holes holes;
   if (options.fill_holes) holes = repairing::fill_holes(rounded.state, *options.fill_holes, step, threads);

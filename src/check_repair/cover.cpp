@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <map>
 #include <set>
@@ -11,6 +10,8 @@
 #include "check/findings.h"
 #include "check_repair/closed_chains.h"
 #include "check_repair/edge_sums.h"
+#include "check_repair/near_triangle.h"
+#include "check_repair/slits.h"
 #include "text/decimal.h"
 
 namespace holdfast::checking {
@@ -29,30 +30,17 @@ class Cover {
  public:
   Cover(CoverTest& test, const std::array<Point, 3>& triangle, const std::array<Index, 3>& places,
         std::span<const Index> chain)
-      : test_(test), triangle_(triangle), places_(places), chain_(chain) {
+      : test_(test),
+        triangle_(triangle),
+        places_(places),
+        chain_(chain),
+        near_(test.vertices_, triangle, *test.reach_) {
     for (const Index f : chain) flip(odd_, test_.facets_[f]);
   }
 
-  /// Adds triangles between two odd edges if the third side is short: a part this thin became a line. (d)
-  void close_thin_gaps() {
-    constexpr std::size_t kMost = 16;
-    for (const auto& [tip, ends] : neighbours_of(odd_)) {
-      if (ends.size() > kMost) continue;
-      for (std::size_t i = 0; i < ends.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-          if (odd_.contains(edge_of(tip, ends[i])) && odd_.contains(edge_of(tip, ends[j])))
-            close_thin_gap({tip, ends[i], ends[j]});
-    }
-  }
-
-  /// Adds triangles between odd edges that are near each other along their length, like the two banks of a
-  /// slit, starting at its far end: a part this thin became a line there. (d)
-  void close_slits() {
-    const Neighbours tips = neighbours_of(odd_);
-    Neighbours now = tips;
-    for (const auto& [tip, unused] : tips)
-      if (sides_of(tip) == 0 && close_slit(tip, now)) now = neighbours_of(odd_);
-  }
+  /// Adds triangles where thin parts became lines. (d)
+  void close_gaps() { Slits(odd_, at_gaps_, near_).close_gaps(); }
+  void close_slits() { Slits(odd_, at_gaps_, near_).close(); }
 
   std::optional<std::string> gap() {
     for (std::size_t side = 0; side < 3; ++side)
@@ -65,139 +53,11 @@ class Cover {
   }
 
  private:
-  /// The sides of the triangle that are within reach of a vertex, as bits.
-  unsigned sides_of(Index v) {
-    const auto [at, is_new] = sides_.try_emplace(v, 0);
-    if (is_new)
-      for (std::size_t i = 0; i < 3; ++i)
-        if (test_.reach_.of_segment(test_.vertices_[v], triangle_[i], triangle_[(i + 1) % 3]))
-          at->second |= 1U << i;
-    return at->second;
-  }
   unsigned sides_of(const Segment& edge) {
     if (const auto at_gap = at_gaps_.find(edge); at_gap != at_gaps_.end()) return at_gap->second;
-    const unsigned sides = sides_of(edge[0]) & sides_of(edge[1]);
+    const unsigned sides = near_.sides_of(edge[0]) & near_.sides_of(edge[1]);
     const auto at_corner = at_corners_.find(edge);
     return at_corner == at_corners_.end() ? sides : sides | at_corner->second;
-  }
-
-  /// |vw|, rounded up.
-  [[nodiscard]] double width_of(Index v, Index w) const {
-    return rough_distance(test_.vertices_[v], test_.vertices_[w]) * (1 + 0x1p-48);
-  }
-  /// A distance from an edge within which all corners surely lie, less than that of the test.
-  [[nodiscard]] std::optional<double> height_above(const Segment& edge, const Triangle& corners) const {
-    const Point &a = test_.vertices_[edge[0]], &b = test_.vertices_[edge[1]];
-    constexpr double kLeast = 0x1p-10;  // of the distance of the test
-    double height = kLeast * test_.reach_.distance();
-    for (const Index v : corners) height = std::max(height, rough_distance(test_.vertices_[v], {a, b, a}));
-    while (height < test_.reach_.distance()) {
-      const Reach reach(height);
-      if (std::all_of(corners.begin(), corners.end(),
-                      [&](Index v) { return reach.of_segment(test_.vertices_[v], a, b); }))
-        return height;
-      height *= 1.125;
-    }
-    return std::nullopt;
-  }
-  /// What remains of the distance for a triangle that is not a facet, near one of these edges. (d)
-  [[nodiscard]] std::optional<Reach> reach_beside(std::initializer_list<Segment> edges,
-                                                  const Triangle& corners) const {
-    std::optional<double> least;
-    for (const Segment& edge : edges)
-      if (const std::optional<double> height =
-              at_gaps_.contains(edge) ? std::nullopt : height_above(edge, corners);
-          height && (!least || *height < *least))
-        least = height;
-    const std::optional<Reach> left = least ? reach_without(*least) : std::nullopt;
-    return left && all_within(*left, corners) ? left : std::nullopt;
-  }
-  /// What remains of the distance after a part of it is used up; nothing if no distance remains.
-  [[nodiscard]] std::optional<Reach> reach_without(double part) const {
-    if (!(part < test_.reach_.distance())) return std::nullopt;
-    return Reach(std::nextafter(test_.reach_.distance() - part, 0.0));
-  }
-  [[nodiscard]] bool all_within(const Reach& reach, std::span<const Index> vertices) const {
-    return std::all_of(vertices.begin(), vertices.end(),
-                       [&](Index v) { return reach.of_triangle(test_.vertices_[v], triangle_); });
-  }
-  /// The sides within reach of both vertices.
-  [[nodiscard]] unsigned sides_near(const Reach& reach, Index v, Index w) const {
-    unsigned sides = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (reach.of_segment(test_.vertices_[v], triangle_[i], triangle_[(i + 1) % 3]) &&
-          reach.of_segment(test_.vertices_[w], triangle_[i], triangle_[(i + 1) % 3]))
-        sides |= 1U << i;
-    return sides;
-  }
-
-  /// The first corner of `t` is its tip.
-  void close_thin_gap(const Triangle& t) {
-    const std::optional<Reach> left = reach_without(width_of(t[1], t[2]) / 2);
-    if (!left || !all_within(*left, t)) return;
-    const unsigned sides = sides_near(*left, t[1], t[2]);
-    if (sides == 0) return;
-    flip(odd_, t);
-    at_gaps_[edge_of(t[1], t[2])] = sides;
-  }
-
-  /// The progress along the odd edges on one bank of a slit: the current vertex and the previous one.
-  struct Bank {
-    Index at, before;
-  };
-  /// The next vertex, if there is only one.
-  [[nodiscard]] static Index next_on(const Bank& bank, const Neighbours& odd) {
-    const auto at = odd.find(bank.at);
-    if (at == odd.end() || at->second.size() != 2) return no_entity;
-    return at->second[at->second[0] == bank.before ? 1 : 0];
-  }
-
-  /// From the far end, where both banks begin, to where they reach one side.
-  bool close_slit(Index tip, const Neighbours& odd) {
-    const auto at = odd.find(tip);
-    if (at == odd.end() || at->second.size() != 2) return false;
-    std::array<Bank, 2> banks{{{at->second[0], tip}, {at->second[1], tip}}};
-    std::vector<Triangle> between{{tip, banks[0].at, banks[1].at}};
-    std::optional<Reach> left =
-        reach_beside({edge_of(tip, banks[0].at), edge_of(tip, banks[1].at)}, between[0]);
-    constexpr std::size_t kMost = 64;
-    while (left && between.size() < kMost) {
-      if (const unsigned sides = sides_near(*left, banks[0].at, banks[1].at); sides != 0) {
-        for (const Triangle& t : between) flip(odd_, t);
-        at_gaps_[edge_of(banks[0].at, banks[1].at)] = sides;
-        return true;
-      }
-      left = go_on(banks, odd, between);
-    }
-    return false;
-  }
-
-  /// One step on the bank where the step leads less far from the other bank; returns what remains of the
-  /// distance.
-  std::optional<Reach> go_on(std::array<Bank, 2>& banks, const Neighbours& odd,
-                             std::vector<Triangle>& between) {
-    std::optional<Reach> left;
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t best = 0;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Bank &bank = banks[i], &other = banks[1 - i];
-      const Index next = next_on(bank, odd);
-      if (next == no_entity || next == other.at || sides_of(bank.at) != 0) continue;
-      const double width = width_of(next, other.at);
-      if (width >= least) continue;
-      const std::optional<Reach> now =
-          reach_beside({edge_of(bank.at, next), edge_of(other.before, other.at)}, {bank.at, next, other.at});
-      if (!now) continue;
-      left.emplace(*now);
-      least = width;
-      best = i;
-    }
-    if (!left) return left;
-    Bank& bank = banks[best];
-    const Index next = next_on(bank, odd);
-    between.push_back({bank.at, next, banks[1 - best].at});
-    bank = {next, bank.at};
-    return left;
   }
 
   /// Joins the corners to all vertices within reach of them by edges. (c)
@@ -207,7 +67,7 @@ class Cover {
     for (std::size_t i = 0; i < 3; ++i)
       test_.near(Box(triangle_[i]), [&](Index f) {
         for (const Index v : test_.facets_[f])
-          if (v != places_[i] && test_.reach_.of_point(test_.vertices_[v], triangle_[i]))
+          if (v != places_[i] && test_.reach_->of_point(test_.vertices_[v], triangle_[i]))
             at_corners_[edge_of(places_[i], v)] |= 1U << i | 1U << (i + 2) % 3;
       });
   }
@@ -257,7 +117,7 @@ class Cover {
       std::vector<Index> part{start};
       unsigned sides = ~0U;
       for (std::size_t i = 0; i < part.size(); ++i) {
-        sides &= sides_of(part[i]);
+        sides &= near_.sides_of(part[i]);
         for (const Index w : neighbours.at(part[i]))
           if (seen.insert(w).second) part.push_back(w);
       }
@@ -345,9 +205,9 @@ class Cover {
 
   [[nodiscard]] bool is_thin_and_near(const Triangle& t) const {
     return inscribed_at_most({test_.vertices_[t[0]], test_.vertices_[t[1]], test_.vertices_[t[2]]},
-                             test_.reach_.distance()) &&
+                             test_.reach_->distance()) &&
            std::all_of(t.begin(), t.end(),
-                       [&](Index v) { return test_.reach_.of_triangle(test_.vertices_[v], triangle_); });
+                       [&](Index v) { return test_.reach_->of_triangle(test_.vertices_[v], triangle_); });
   }
 
   [[nodiscard]] std::string told_cover() const {
@@ -365,8 +225,9 @@ class Cover {
   const std::array<Index, 3>& places_;
   std::span<const Index> chain_;
   std::set<Segment> odd_;
-  std::map<Index, unsigned> sides_;
-  std::map<Segment, unsigned> at_corners_, at_gaps_;
+  NearTriangle near_;
+  std::map<Segment, unsigned> at_corners_;
+  Slits::Ends at_gaps_;
   bool are_corners_joined_ = false;
   std::set<Segment> astray_;
   std::optional<Segment> first_astray_;
@@ -387,18 +248,18 @@ void CoverTest::near(Box box, Visit&& visit) {
   // Rounded outwards: the box contains everything within reach.
   for (std::size_t k = 0; k < 3; ++k) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    box.low[k] = std::nextafter(box.low[k] - reach_.distance(), -kInfinity);
-    box.high[k] = std::nextafter(box.high[k] + reach_.distance(), kInfinity);
+    box.low[k] = std::nextafter(box.low[k] - reach_->distance(), -kInfinity);
+    box.high[k] = std::nextafter(box.high[k] + reach_->distance(), kInfinity);
   }
   tree().query([&](const Box& other) { return other.meets(box); }, visit);
 }
 
 Index CoverTest::within_reach(const Point& p, Index vertex) {
-  if (vertex != no_entity && reach_.of_point(vertices_[vertex], p)) return vertex;
+  if (vertex != no_entity && reach_->of_point(vertices_[vertex], p)) return vertex;
   Index found = no_entity;
   near(Box(p), [&](Index f) {
     for (const Index v : facets_[f])
-      if (v < found && reach_.of_point(vertices_[v], p)) found = v;
+      if (v < found && reach_->of_point(vertices_[v], p)) found = v;
   });
   return found;
 }
@@ -408,7 +269,7 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
   for (std::size_t i = 0; i < 3; ++i) {
     places[i] = within_reach(triangle[i], places[i]);
     if (places[i] == no_entity)
-      return "no vertex of the output is within " + decimal(reach_.distance()) + " of its corner at " +
+      return "no vertex of the output is within " + decimal(reach_->distance()) + " of its corner at " +
              words(triangle[i]);
   }
   std::array<Index, 3> corners = places;
@@ -420,10 +281,14 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 3>& triangle, 
   }
   std::optional<std::string> gap = Cover(*this, triangle, places, chain).gap();
   if (!gap) return gap;
-  Cover closed(*this, triangle, places, chain);
-  closed.close_thin_gaps();
-  closed.close_slits();
-  return closed.gap() ? gap : std::nullopt;
+  // What is closed as a gap may be a facet that is there, and a slit that ends at it stays open.
+  for (const bool closes_gaps : {false, true}) {
+    Cover closed(*this, triangle, places, chain);
+    if (closes_gaps) closed.close_gaps();
+    closed.close_slits();
+    if (!closed.gap()) return std::nullopt;
+  }
+  return gap;
 }
 
 std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, std::array<Index, 2> places,
@@ -433,9 +298,9 @@ std::optional<std::string> CoverTest::gap(const std::array<Point, 2>& segment, s
     if (const auto [at, is_new] = odd.insert(v); !is_new) odd.erase(at);
   };
   for (std::size_t i = 0; i < 2; ++i) {
-    if (places[i] == no_entity || !reach_.of_point(vertices_[places[i]], segment[i]))
+    if (places[i] == no_entity || !reach_->of_point(vertices_[places[i]], segment[i]))
       return "its end at " + words(segment[i]) + " is no vertex of the output within " +
-             decimal(reach_.distance());
+             decimal(reach_->distance());
     flip_end(places[i]);
   }
   for (const auto& [a, b] : chain) {

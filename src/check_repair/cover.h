@@ -45,8 +45,15 @@ namespace holdfast::checking {
 class CoverTest {
  public:
   /// All indices must exist, and the coordinates that they use be finite.
+  CoverTest(std::span<const Point> vertices, std::span<const Triangle> facets)
+      : vertices_(vertices), facets_(facets) {}
   CoverTest(std::span<const Point> vertices, std::span<const Triangle> facets, const Reach& reach)
-      : vertices_(vertices), facets_(facets), reach_(reach) {}
+      : CoverTest(vertices, facets) {
+    set(reach);
+  }
+
+  /// The distance of the tests that follow; it must last as long as they do.
+  void set(const Reach& reach) { reach_ = &reach; }
 
   /// Nothing if the facets of `chain` cover the triangle as above, else why that was not found. Each must be
   /// within reach. `places` are the vertices of the output that its corners became, or `no_entity`.
@@ -68,7 +75,7 @@ class CoverTest {
 
   std::span<const Point> vertices_;
   std::span<const Triangle> facets_;
-  const Reach& reach_;
+  const Reach* reach_ = nullptr;
   std::optional<BoxTree> tree_;  // of the facets, once it is needed
 };
 

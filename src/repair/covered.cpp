@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -27,7 +29,8 @@ class Covers {
         given_(given),
         step_(step),
         place_(state.vertices.size(), no_index),
-        children_(state, given) {
+        children_(state, given),
+        test_(state.vertices, state.facets) {
     const std::vector<Index> first = first_at_places(state.vertices);
     for (const Triangle& t : state.facets)
       for (const Index v : t) place_[first[v]] = std::min(place_[first[v]], v);
@@ -36,22 +39,31 @@ class Covers {
 
   /// The least multiple of `most` that suffices among those tried; nothing if none does.
   std::optional<double> run(double most) {
-    std::vector<Index> open;
     const checking::Reach near(most);
     for (Index g = 0; g < given_.facets.size(); ++g)
-      if (!children_.of(g).empty() && !is_whole(g) && !has_its_sides_round_it(g, near)) open.push_back(g);
+      if (!children_.of(g).empty() && !is_whole(g) && !has_its_sides_round_it(g, near)) open_.push_back(g);
     constexpr int kDoublings = 8;
     double distance = most;
     for (int k = 0; k <= kDoublings; ++k, distance *= 2) {
       const checking::Reach reach(distance);
-      checking::CoverTest test(state_.vertices, state_.facets, reach);
-      std::erase_if(open, [&](Index g) {
-        step_(0);
-        return is_covered(g, test);
-      });
-      if (open.empty()) return distance;
+      test_.set(reach);
+      std::erase_if(open_, [&](Index g) { return is_covered(g); });
+      if (open_.empty()) return distance;
     }
     return std::nullopt;
+  }
+
+  /// A distance that suffices for those that no multiple sufficed for. Once everything is within it of
+  /// everything else, it does.
+  double beyond(double most) {
+    for (const Index g : open_)
+      for (double distance = std::max(most, gap_at_corners(g)); std::isfinite(distance); distance *= 2) {
+        const checking::Reach reach(distance);
+        test_.set(reach);
+        most = distance;
+        if (is_covered(g)) break;
+      }
+    return most;
   }
 
  private:
@@ -145,10 +157,26 @@ class Covers {
     return next == first;
   }
 
-  [[nodiscard]] bool is_covered(Index g, checking::CoverTest& test) const {
+  /// How far the parts of a facet are from its corners: no less suffices.
+  [[nodiscard]] double gap_at_corners(Index g) const {
+    double gap = 0;
+    for (const Index v : given_.facets[g]) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Index f : children_.of(g)) {
+        const Triangle& t = state_.facets[f];
+        least = std::min(least, checking::rough_distance(given_.vertices[v], {at(t[0]), at(t[1]), at(t[2])}));
+      }
+      gap = std::max(gap, least);
+    }
+    constexpr double kRoundedUp = 1 + 0x1p-40;
+    return gap * kRoundedUp;
+  }
+
+  [[nodiscard]] bool is_covered(Index g) {
+    step_(0);
     const Triangle& t = given_.facets[g];
-    return !test.gap({given_.vertices[t[0]], given_.vertices[t[1]], given_.vertices[t[2]]},
-                     {place_[t[0]], place_[t[1]], place_[t[2]]}, children_.of(g));
+    return !test_.gap({given_.vertices[t[0]], given_.vertices[t[1]], given_.vertices[t[2]]},
+                      {place_[t[0]], place_[t[1]], place_[t[2]]}, children_.of(g));
   }
 
   [[nodiscard]] const Point& at(Index v) const { return state_.vertices[v]; }
@@ -158,6 +186,8 @@ class Covers {
   const Step& step_;
   std::vector<Index> place_;  // by vertex: a used vertex at its place, or none
   const Children children_;
+  checking::CoverTest test_;
+  std::vector<Index> open_;  // facets that are not yet known to be covered
   std::vector<Side> sides_;
   std::optional<NumberedSides> numbered_;  // for a facet with many parts
   std::vector<std::uint8_t> is_odd_;       // by number, up to now
@@ -169,6 +199,13 @@ class Covers {
 std::optional<double> covered_within(const State& state, const State& given, double most, const Step& step) {
   if (most == 0) return most;
   return Covers(state, given, step).run(most);
+}
+
+double cover_distance(const State& state, const State& given, double most, const Step& step) {
+  if (most == 0) return most;
+  Covers covers(state, given, step);
+  const std::optional<double> within = covers.run(most);
+  return within ? *within : covers.beyond(most);
 }
 
 }  // namespace holdfast::repairing

@@ -16,4 +16,8 @@ namespace holdfast::repairing {
 [[nodiscard]] std::optional<double> covered_within(const State& state, const State& given, double most,
                                                    const Step& step);
 
+/// The same, and if no such multiple suffices, a distance within which they do. A tip that is lost may be far
+/// longer than it was thick.
+[[nodiscard]] double cover_distance(const State& state, const State& given, double most, const Step& step);
+
 }  // namespace holdfast::repairing

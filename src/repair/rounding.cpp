@@ -115,7 +115,7 @@ class ArrangedRounding {
     most = sum_above(most, restore(rounded.state, places, step_, threads_));
     if (options_.join > 0 || !is_rounded_once(rounded.state, report_)) {
       most = keep_strips(rounded.state, given_, most, step_, threads_);
-      most = covered_within(rounded.state, given_, most, step_).value_or(most);
+      most = cover_distance(rounded.state, given_, most, step_);
     }
   }
 

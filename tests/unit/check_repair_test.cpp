@@ -169,7 +169,7 @@ TEST(Cover, GapsAlongTwoSidesThatShareACorner) {
                                     {0.6, 2 * e, 0}, {1 - e, 0.5, 0}, {1 - 2 * e, 0.5, 0}};
   std::vector<Triangle> facets{{0, 1, 3}, {0, 3, 4}, {0, 4, 2}, {4, 1, 6}, {4, 6, 2}, {6, 5, 2}, {5, 1, 2}};
   const std::vector<Index> children{0, 1, 2, 3, 4, 5, 6};
-  const Reach reach(2.5 * e), nearer(1.5 * e);
+  const Reach reach(2.5 * e), nearer(0.4 * e);
   EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
   EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
   // A gap between the sides does not count as one along them.
@@ -254,6 +254,77 @@ TEST(Cover, ASlitWithEndsLongerThanItsThickness) {
     EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children)) << x;
     EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children)) << x;
   }
+}
+
+// From side to side, once straight and once nearly along the side where it begins.
+TEST(Cover, ASlitFromOneSideToAnother) {
+  const double e = 1e-9;
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
+  const std::vector<Triangle> facets{{0, 3, 5}, {0, 5, 2}, {4, 1, 6}};
+  const std::vector<Index> children{0, 1, 2};
+  for (const double end : {0.5, e}) {
+    const std::vector<Point> vertices{triangle[0],     triangle[1], triangle[2],          {0.5, 0, 0},
+                                      {0.5 + e, 0, 0}, {1, end, 0}, {1, end - e * end, 0}};
+    const double thickness = e * end / std::hypot(end, 0.5);
+    const Reach reach(1.5 * e), nearer(0.4 * thickness);
+    EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children)) << end;
+    EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children)) << end;
+  }
+}
+
+// Slits that cross: their ends in the middle are at a vertex with four odd edges. An edge along the side lies
+// between two that begin there.
+TEST(Cover, SlitsThatMeetInAVertex) {
+  const double e = 1e-9;
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  const std::vector<Point> vertices{triangle[0],     triangle[1], triangle[2],     {0.3, 0, 0},
+                                    {0.3 + e, 0, 0}, {0.6, 0, 0}, {0.6 + e, 0, 0}, {0.3, 0.3, 0}};
+  const std::vector<Triangle> facets{{0, 3, 7}, {4, 5, 7}, {6, 1, 7}, {1, 2, 7}, {2, 0, 7}};
+  const std::vector<Index> children{0, 1, 2, 3, 4};
+  const Reach reach(e), nearer(0.2 * e);
+  EXPECT_FALSE(CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children));
+  EXPECT_TRUE(CoverTest(vertices, facets, nearer).gap(triangle, {0, 1, 2}, children));
+}
+
+// What is accepted as covered beside a slit is: a corner is cut off by slits of all thicknesses and
+// directions.
+TEST(Cover, IsTakenForNoneWhereASlitIsTooWide) {
+  const std::array<Point, 3> triangle{{{0, 0, 0}, {6, 0, 0}, {1, 5, 0}}};
+  const std::vector<Triangle> facets{{0, 3, 5}, {4, 1, 6}, {1, 2, 6}};
+  const std::vector<Index> children{0, 1, 2};
+  const double distance = 0.01;
+  const Reach reach(distance);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::size_t covers = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const double x = 5.8 * unit(random), y = 0.96 * unit(random);
+    const double wide = 0.05 * unit(random) * unit(random), high = 0.01 * unit(random) * unit(random);
+    const std::vector<Point> vertices{triangle[0],
+                                      triangle[1],
+                                      triangle[2],
+                                      {x, 0, 0},
+                                      {x + wide, 0, 0},
+                                      {y, 5 * y, 0},
+                                      {y + high, 5 * (y + high), 0}};
+    if (CoverTest(vertices, facets, reach).gap(triangle, {0, 1, 2}, children)) continue;
+    ++covers;
+    constexpr int kParts = 16;
+    for (int i = 0; i <= kParts; ++i)
+      for (int j = 0; j <= kParts; ++j) {
+        const double s = static_cast<double>(i) / kParts, t = static_cast<double>(j) / kParts;
+        const double on_first = x + s * wide, on_last = y + s * high;
+        const Point p{(1 - t) * on_first + t * on_last, 5 * t * on_last, 0};
+        EXPECT_TRUE(std::any_of(
+            facets.begin(), facets.end(),
+            [&](const Triangle& f) {
+              return Reach(distance + 1e-12).of_triangle(p, {vertices[f[0]], vertices[f[1]], vertices[f[2]]});
+            }))
+            << x << " " << y << " " << wide << " " << high;
+      }
+  }
+  EXPECT_GT(covers, 100U);
+  EXPECT_LT(covers, 1900U);
 }
 
 // Whatever is accepted as a cover is one: points of the triangle are within the distance of some facet.

@@ -222,5 +222,46 @@ Surface turned_boxes(int count) {
 // No doubles were found: sheets 1e-7 apart have intersection lines all over them.
 TEST(RepairPromise, APileOfTurnedBoxesIsRepaired) { EXPECT_EQ(broken(turned_boxes(24)), ""); }
 
+// Lines that run into each other leave a part thinner than a last bit, from one side of a facet to another.
+// Its edge along the side is 6e-9 long and lost with it.
+TEST(RepairPromise, APartThinnerThanALastBitFromSideToSide) {
+  EXPECT_EQ(broken(surface_of({{505.195, 1.76373, -35.951873},
+                               {505.195, 2.76376, -35.951801},
+                               {503.195, 1.823737, -35.951915},
+                               {505.195, 2.76376, -35.951801},
+                               {505.195, 1.76373, -35.951873},
+                               {503.195, 2.82375, -35.9519},
+                               {505.195, 1.76373, -35.95187},
+                               {505.195, 1.76375, -44.951801},
+                               {503.195, 1.823737, -35.95192},
+                               {492.1382, 2.227685, -68.5901},
+                               {487.95123, 2.32865, -61.3815},
+                               {489.39422, 2.32863, -69.0081},
+                               {492.1382, 2.22768, -68.5901},
+                               {489.3945, 3.328655, -69.0081},
+                               {489.3942, 2.32863, -69.0081},
+                               {492.1382, 2.22768, -68.5901},
+                               {492.1385, 3.227675, -68.5901},
+                               {489.3942, 2.32863, -69.0081}},
+                              {{1, 2, 0}, {4, 5, 3}, {7, 8, 6}, {11, 10, 9}, {14, 13, 12}, {16, 17, 15}})),
+            "");
+}
+
+// A needle of which a part is thinner than the tolerance: that part is lost, and the distance says so however
+// long it is.
+TEST(RepairPromise, TheDistanceIncludesALongTipThatWeldingLoses) {
+  RepairOptions options;
+  options.weld = 1e-6;
+  EXPECT_EQ(broken(surface_of({{-81.127555000000001, -76.661299999999997, 37.944443999999997},
+                               {-54.577800000000003, 84.4465, 53.185000000000002},
+                               {-54.562477732601138, 84.438095884786563, 53.180064051601754},
+                               {55.885800000000003, 23.606200000000001, 17.8367},
+                               {55.885764000000002, 23.606200000000001, 17.8367},
+                               {-70.685900000000004, -13.299300000000001, 43.938400000000001}},
+                              {{0, 1, 2}, {3, 4, 5}}),
+                   options),
+            "");
+}
+
 }  // namespace
 }  // namespace holdfast
