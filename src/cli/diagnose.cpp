@@ -203,7 +203,8 @@ void add_diagnose(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .ac .mesh "
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .ac .3ds "
+          ".gii .mesh "
           ".meshb .poly .smesh .node .msh .vtu .vtp .vtk, each also .gz); several files are numbered one "
           "after "
           "the other; vertices with identical coordinates are one")

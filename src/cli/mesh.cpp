@@ -289,7 +289,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "SURFACE", arguments->surfaces,
-          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .ac .mesh "
+          "Surface files (.stl .off .obj .ply .3mf .amf .gltf .glb .wrl .x3d .dae .ts .gts .dxf .ac .3ds "
+          ".gii .mesh "
           ".meshb .poly .smesh .node .msh .vtu .vtp .vtk, each also .gz, and any other that `convert` "
           "reads); "
           "several files are numbered one after the other; vertices with identical coordinates are one")

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "io/base64.h"
@@ -288,27 +289,13 @@ std::size_t GltfFile::bytes() const {
 }
 
 std::string GltfFile::decoded(const Json& uri) const {
-  static constexpr std::array<int, 256> kValues = base64_values();
   constexpr std::string_view kMark = ";base64,";
   const std::string_view text = uri.get_ref<const std::string&>();
   const std::size_t mark = text.find(kMark);
   if (mark == std::string_view::npos) fail(uri, "a buffer in the text that is not base64");
-  std::string bytes;
-  bytes.reserve((text.size() - mark) / 4 * 3);
-  std::uint32_t bits = 0;
-  unsigned held = 0;
-  for (const char c : text.substr(mark + kMark.size())) {
-    if (c == '=') break;
-    beat(source_.watch);
-    const int value = kValues[static_cast<unsigned char>(c)];
-    if (value < 0) fail(uri, "a character that is not base64");
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    held += 6;
-    if (held < 8) continue;
-    held -= 8;
-    bytes += static_cast<char>(static_cast<unsigned char>(bits >> held));
-  }
-  return bytes;
+  std::optional<std::string> bytes = decoded_base64(text.substr(mark + kMark.size()), source_.watch);
+  if (!bytes) fail(uri, "a character that is not base64");
+  return *std::move(bytes);
 }
 
 }  // namespace holdfast::io

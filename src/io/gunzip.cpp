@@ -92,6 +92,11 @@ Unpacked gunzipped(const Source& source) {
   return unpacked;
 }
 
+std::string unpacked_zlib(const Source& source) {
+  constexpr int kEither = 32;  // the header tells which of the two it is
+  return Inflater(source, 0, source.bytes.size(), MAX_WBITS + kEither).run();
+}
+
 std::string inflated(const Source& source, std::size_t begin, std::size_t end) {
   return Inflater(source, begin, end, -MAX_WBITS).run();  // negative for no header and trailer
 }

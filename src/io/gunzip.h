@@ -21,6 +21,9 @@ struct Unpacked {
 /// than any mesh.
 [[nodiscard]] Unpacked gunzipped(const Source& source);
 
+/// The content of a zlib stream (RFC 1950) or a gzip file. Throws likewise.
+[[nodiscard]] std::string unpacked_zlib(const Source& source);
+
 /// The bytes of a file from `begin` to `end`, unpacked by deflate (RFC 1951). Throws likewise.
 [[nodiscard]] std::string inflated(const Source& source, std::size_t begin, std::size_t end);
 

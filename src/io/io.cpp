@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "io/ac3d_read.h"
+#include "io/brain_surfaces.h"
 #include "io/cells.h"
 #include "io/endings.h"
 #include "io/file_bytes.h"
@@ -14,6 +15,7 @@
 #include "io/labels.h"
 #include "io/mid_nodes.h"
 #include "io/text_reader.h"
+#include "io/threeds_read.h"
 #include "io/vrml_read.h"
 #include "numbers/float_environment.h"
 #include "text/count.h"
@@ -70,6 +72,9 @@ constexpr Format kFormats[] = {
     {".ts", read_gocad, nullptr, nullptr},
     {".gts", read_gts, nullptr, nullptr},
     {".ac", read_ac3d, nullptr, nullptr},
+    {".3ds", read_3ds, nullptr, nullptr},
+    {".gii", read_gifti, nullptr, nullptr},
+    {".freesurfer", read_freesurfer, nullptr, nullptr},
     {".dae", read_dae, nullptr, nullptr},
     {".dxf", read_dxf, nullptr, nullptr},
     {".mesh", read_medit, read_medit, write_file<write_medit>, nullptr, false},
@@ -147,17 +152,25 @@ std::string_view way_out_of(std::string_view extension) {
                                     kOfMeshio = "; `meshio convert IN OUT.vtu` reads it",
                                     kOfFoam = "; give the case's folder",
                                     kOfAscii = "; if it is STL, give the format .stl";
-  static constexpr Way kWays[] = {
-      {".step", kOfCad},        {".stp", kOfCad},
-      {".iges", kOfCad},        {".igs", kOfCad},
-      {".brep", kOfCad},        {".geo", kOfCad},
-      {".3ds", kOfScenes},      {".fbx", kOfScenes},
-      {".blend", kOfScenes},    {".lwo", kOfScenes},
-      {".x", kOfScenes},        {".ctm", kOfScenes},
-      {".vtkhdf", kOfParaView}, {".ugrid", kOfMeshio},
-      {".mdpa", kOfMeshio},     {".f3grid", kOfMeshio},
-      {".tec", kOfMeshio},      {".foam", kOfFoam},
-      {".ast", kOfAscii},       {".scad", "; `openscad -o OUT.off IN` makes a surface of it"}};
+  static constexpr Way kWays[] = {{".step", kOfCad},
+                                  {".stp", kOfCad},
+                                  {".iges", kOfCad},
+                                  {".igs", kOfCad},
+                                  {".brep", kOfCad},
+                                  {".geo", kOfCad},
+                                  {".fbx", kOfScenes},
+                                  {".blend", kOfScenes},
+                                  {".lwo", kOfScenes},
+                                  {".x", kOfScenes},
+                                  {".ctm", kOfScenes},
+                                  {".vtkhdf", kOfParaView},
+                                  {".ugrid", kOfMeshio},
+                                  {".mdpa", kOfMeshio},
+                                  {".f3grid", kOfMeshio},
+                                  {".tec", kOfMeshio},
+                                  {".foam", kOfFoam},
+                                  {".ast", kOfAscii},
+                                  {".scad", "; `openscad -o OUT.off IN` makes a surface of it"}};
   for (const Way& way : kWays)
     if (way.extension == extension) return way.text;
   return {};

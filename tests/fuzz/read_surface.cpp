@@ -13,13 +13,14 @@ namespace {
 
 using namespace holdfast;
 
-constexpr std::array<std::array<const char*, 2>, 24> kFormats{
+constexpr std::array<std::array<const char*, 2>, 27> kFormats{
     {{".off"},  {".stl"},    {".obj"},           {".ply"},
      {".mesh"}, {".meshb"},  {".poly", ".node"}, {".smesh", ".node"},
      {".node"}, {".vtu"},    {".vtp"},           {".vtk"},
      {".msh"},  {".stl.gz"}, {".3mf"},           {".amf"},
      {".ts"},   {".gltf"},   {".glb"},           {".wrl"},
-     {".gts"},  {".dxf"},    {".dae"},           {".ac"}}};
+     {".gts"},  {".dxf"},    {".dae"},           {".ac"},
+     {".3ds"},  {".gii"},    {".pial"}}};
 
 void require_in_range(const Surface& surface) {
   for (const Triangle& f : surface.facets)

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "holdfast/io.h"
+#include "io/byte_reader.h"
 
 namespace holdfast::samples {
 
@@ -274,6 +275,59 @@ inline const char* const kAc3d =
     "name \"a\"\ndata 2\n{}\nrot 0 1 0 -1 0 0 0 0 1\nnumvert 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnumsurf 2\n"
     "SURF 0x10\nmat 0\nrefs 4\n0 0 0\n1 0 0\n2 0 0\n3 0 0\nSURF 0x24\nrefs 4\n3 0 0\n2 0 0\n1 0 0\n0 0 0\n"
     "kids 0\nOBJECT poly\nnumvert 1\n5 5 5\nkids 0\n";
+inline const char* const kGifti =
+    "<?xml version=\"1.0\"?>\n<GIFTI Version=\"1.0\" NumberOfDataArrays=\"3\">\n"
+    "<DataArray Intent=\"NIFTI_INTENT_POINTSET\" DataType=\"NIFTI_TYPE_FLOAT32\" "
+    "ArrayIndexingOrder=\"RowMajorOrder\" Dimensionality=\"2\" Dim0=\"4\" Dim1=\"3\" Encoding=\"ASCII\" "
+    "Endian=\"LittleEndian\">\n<MetaData><MD><Name><![CDATA[a]]></Name></MD></MetaData>\n"
+    "<Data>0 0 0 1 0 0 0 1 0 0 0 1</Data></DataArray>\n"
+    "<DataArray Intent=\"NIFTI_INTENT_TRIANGLE\" DataType=\"NIFTI_TYPE_INT32\" "
+    "ArrayIndexingOrder=\"ColumnMajorOrder\" Dimensionality=\"2\" Dim0=\"4\" Dim1=\"3\" "
+    "Encoding=\"Base64Binary\" Endian=\"LittleEndian\">\n"
+    "<Data>AAAAAAAAAAAAAAAAAQAAAAIAAAABAAAAAwAAAAIAAAABAAAAAwAAAAIAAAADAAAA</Data></DataArray>\n"
+    "<DataArray Intent=\"NIFTI_INTENT_SHAPE\" DataType=\"NIFTI_TYPE_FLOAT32\" Dimensionality=\"1\" "
+    "Dim0=\"4\" "
+    "Encoding=\"ASCII\"><Data>1 2 3 4</Data></DataArray>\n</GIFTI>\n";
+/// A tetrahedron as FreeSurfer writes it, with a footer.
+inline std::string freesurfer_bytes() {
+  std::string bytes =
+      "\xFF\xFF\xFE"
+      "created by a test\n\n";
+  const auto add = [&](auto value) { io::store(bytes, value, std::endian::big); };
+  add(std::int32_t{4});
+  add(std::int32_t{4});
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F}) add(x);
+  for (const std::int32_t v : {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}) add(v);
+  return bytes + "footer";
+}
+/// Two meshes of 3D Studio: a tetrahedron whose first two triangles are of one material, and points alone.
+inline std::string threeds_bytes() {
+  const auto chunk = [](std::uint16_t id, const std::string& data) {
+    std::string bytes;
+    io::store(bytes, id, std::endian::little);
+    io::store(bytes, static_cast<std::uint32_t>(data.size() + 6), std::endian::little);
+    return bytes + data;
+  };
+  const auto numbers = [](std::uint16_t count, auto... values) {
+    std::string bytes;
+    io::store(bytes, count, std::endian::little);
+    (io::store(bytes, values, std::endian::little), ...);
+    return bytes;
+  };
+  const auto u = [](int v) { return static_cast<std::uint16_t>(v); };
+  const auto name = [](const char* text) { return std::string(text) + '\0'; };
+  const std::string points =
+      chunk(0x4110, numbers(4, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F));
+  const std::string faces =
+      chunk(0x4120, numbers(4, u(0), u(2), u(1), u(7), u(0), u(1), u(3), u(7), u(0), u(3), u(2), u(7), u(1),
+                            u(2), u(3), u(7)) +
+                        chunk(0x4130, name("red") + numbers(2, u(0), u(1))) + chunk(0x4150, "01234567"));
+  return chunk(0x4D4D, chunk(0x0002, "\3\0\0") +
+                           chunk(0x3D3D, chunk(0xAFFF, chunk(0xA000, name("blue"))) +
+                                             chunk(0x4000, name("body") + chunk(0x4100, faces + points)) +
+                                             chunk(0x4000, name("dots") + chunk(0x4100, points))) +
+                           chunk(0xB000, ""));
+}
 inline const char* const kGts =
     "# tetrahedron\n4 6 4 GtsSurface GtsFace GtsEdge GtsVertex\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 2\n2 3\n3 1\n1 "
     "4\n2 "
