@@ -35,6 +35,8 @@ class JoinedPieces {
     surface_places_ = joiner.vertices();
     for (std::size_t k = 0; k < parts; ++k) number(load_(k), joiner, static_cast<Index>(k));
     common_ = joiner.surface();
+    for (Number v = 0; v < surface_places_; ++v)
+      if (!parts_of_.contains(v)) in_no_part_.push_back(v);
     for (std::size_t k = 0; k < parts; ++k) keep_layer(load_(k), static_cast<Index>(k));
   }
 
@@ -146,16 +148,24 @@ class JoinedPieces {
       piece.volume.vertex_markers.push_back(v < surface_places_ ? common_.vertex_markers[v] : 0);
   }
 
-  /// In the order of the whole; returns the piece's index of each of the part's vertices.
+  /// In the order of the whole, the first piece with those in no part; returns the piece's index of each of
+  /// the part's vertices.
   std::vector<Index> take_own_vertices(MeshPiece& piece, const Volume& part,
                                        const std::vector<Number>& numbers, Index k) const {
     std::vector<Index> order(numbers.size()), local(numbers.size());
     for (std::size_t v = 0; v < order.size(); ++v) order[v] = static_cast<Index>(v);
     std::sort(order.begin(), order.end(), [&](Index a, Index b) { return numbers[a] < numbers[b]; });
+    auto loose = k == 0 ? in_no_part_.begin() : in_no_part_.end();
+    const auto add_loose_below = [&](Number end) {
+      for (; loose != in_no_part_.end() && *loose < end; ++loose)
+        add_vertex(piece, *loose, common_.vertices[*loose], 0);
+    };
     for (const Index v : order) {
+      add_loose_below(numbers[v]);
       local[v] = static_cast<Index>(piece.vertices.size());
       add_vertex(piece, numbers[v], part.vertices[v], owner_of_vertex(numbers[v], k));
     }
+    add_loose_below(surface_places_);
     piece.own_vertices = piece.vertices.size();
     return local;
   }
@@ -252,6 +262,7 @@ class JoinedPieces {
   int marker_;
   Number surface_places_ = 0, tetrahedra_of_last_ = 0;
   Volume common_;
+  std::vector<Number> in_no_part_;                            // vertices of the surface, which piece 0 has
   std::vector<Number> first_tetrahedron_, first_fresh_;       // of each part
   std::vector<std::vector<std::pair<Index, Number>>> known_;  // vertices that were there before
   std::unordered_map<Number, Parts> parts_of_;                // of vertices on the surface and interfaces

@@ -167,11 +167,11 @@ std::multiset<std::tuple<Whole, int, Index>> facets_of(const MeshPiece& piece) {
   return facets;
 }
 
-TEST(Partition, PiecesOfPartsEqualThoseOfTheJoinedVolume) {
+void expect_pieces_of_parts_equal_those_of_the_joined_volume(const Surface& surface) {
   DivideOptions dividing;
   dividing.parts = 4;
   dividing.size = 0.2;
-  const Surface surface = small::box();
+  dividing.drop_outside = true;
   const SurfaceDivision division = divide(surface, dividing);
   std::vector<Volume> volumes;
   std::vector<Index> part_of;
@@ -202,6 +202,19 @@ TEST(Partition, PiecesOfPartsEqualThoseOfTheJoinedVolume) {
     EXPECT_EQ(pieces[k].volume.input_vertices, expected[k].volume.input_vertices);
     EXPECT_EQ(facets_of(pieces[k]), facets_of(expected[k]));
   }
+}
+
+TEST(Partition, PiecesOfPartsEqualThoseOfTheJoinedVolume) {
+  expect_pieces_of_parts_equal_those_of_the_joined_volume(small::box());
+}
+
+TEST(Partition, VerticesInNoPartAreInTheFirstPiece) {
+  Surface surface = small::box();
+  surface.vertices.insert(surface.vertices.begin(), Point{7, 7, 7});
+  for (Triangle& t : surface.facets)
+    for (Index& v : t) ++v;
+  surface.vertices.push_back({8, 8, 8});
+  expect_pieces_of_parts_equal_those_of_the_joined_volume(surface);
 }
 
 }  // namespace
