@@ -25,7 +25,8 @@ class InpReader {
     read_unused_parts();
     elements_.finish(text_.reader().source());
     const InpShownName shown = [&](const std::string& name) { return parts_.shown(name); };
-    const std::vector<int> markers = surfaces_.apply(mesh_, text_, elements_, sets_, shown, names_.markers);
+    const std::vector<std::optional<int>> markers =
+        surfaces_.apply(mesh_, text_, elements_, sets_, shown, names_.markers);
     apply_sets(markers);
     tell_skipped();
     return std::move(mesh_);
@@ -126,7 +127,7 @@ class InpReader {
 
   /// Gives the entities of sets their ids; `markers` are those of facets from surfaces, which take
   /// precedence.
-  void apply_sets(const std::vector<int>& markers) {
+  void apply_sets(const std::vector<std::optional<int>>& markers) {
     std::vector<int> regions(mesh_.tetrahedra.size(), 0), segments(mesh_.segments.size(), 0);
     std::vector<int> shells(mesh_.facets.size(), 0);
     for (const auto& [name, members] : sets_.largest_first()) {
@@ -146,7 +147,7 @@ class InpReader {
       }
     }
     for (std::size_t f = 0; f < markers.size(); ++f)
-      mesh_.facet_markers.add(f, markers[f] != 0 ? markers[f] : shells[f]);
+      mesh_.facet_markers.add(f, markers[f].value_or(shells[f]));
     for (std::size_t t = 0; t < regions.size(); ++t) mesh_.regions.add(t, regions[t]);
     for (std::size_t s = 0; s < segments.size(); ++s) mesh_.segment_markers.add(s, segments[s]);
     mesh_.names.facets = names_.markers.take();

@@ -110,7 +110,7 @@ void InpSurfaces::read(InpText& text, const std::string& name) {
 class InpSurfaces::Facets {
  public:
   Facets(MeshData& mesh, const InpElements& elements)
-      : mesh_(mesh), elements_(elements), markers_(mesh.facets.size(), 0) {
+      : mesh_(mesh), elements_(elements), markers_(mesh.facets.size()) {
     settle_quadrangles(mesh);  // so that the triangles of a cell's side match
     for (Index f = 0; f < mesh.facets.size(); ++f) facet_of_.emplace(ascending(mesh.facets[f]), f);
   }
@@ -141,7 +141,7 @@ class InpSurfaces::Facets {
 
   /// The number of marked sides of elements without area.
   [[nodiscard]] std::size_t without_area() const { return without_area_; }
-  [[nodiscard]] std::vector<int> take_markers() { return std::move(markers_); }
+  [[nodiscard]] std::vector<std::optional<int>> take_markers() { return std::move(markers_); }
 
  private:
   /// The number after the S of a side, counted from 0, for an element with `corners` corners.
@@ -161,20 +161,21 @@ class InpSurfaces::Facets {
   /// Whether the facet is new and must be added to the mesh.
   bool add_once(const Triangle& facet) {
     const bool fresh = facet_of_.emplace(ascending(facet), static_cast<Index>(mesh_.facets.size())).second;
-    if (fresh) markers_.push_back(0);
+    if (fresh) markers_.emplace_back();
     return fresh;
   }
 
   MeshData& mesh_;
   const InpElements& elements_;
   std::map<Triangle, Index> facet_of_;
-  std::vector<int> markers_;
+  std::vector<std::optional<int>> markers_;
   std::size_t without_area_ = 0;
 };
 
-std::vector<int> InpSurfaces::apply(MeshData& mesh, InpText& text, const InpElements& elements,
-                                    const InpSets& sets, const InpShownName& shown, NamedIds& names) const {
-  if (order_.empty()) return std::vector<int>(mesh.facets.size(), 0);
+std::vector<std::optional<int>> InpSurfaces::apply(MeshData& mesh, InpText& text, const InpElements& elements,
+                                                   const InpSets& sets, const InpShownName& shown,
+                                                   NamedIds& names) const {
+  if (order_.empty()) return std::vector<std::optional<int>>(mesh.facets.size());
   Facets facets(mesh, elements);
   const auto mark = [&](std::int64_t number, const Side& side, int id) {
     const InpElement* element = elements.find(number);

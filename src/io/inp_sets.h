@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,10 @@ using InpShownName = std::function<std::string(const std::string&)>;
 class InpSurfaces {
  public:
   void read(InpText& text, const std::string& name);
-  /// Adds facets to the mesh. Returns the marker of each facet, or 0.
-  [[nodiscard]] std::vector<int> apply(MeshData& mesh, InpText& text, const InpElements& elements,
-                                       const InpSets& sets, const InpShownName& shown, NamedIds& names) const;
+  /// Adds facets to the mesh. Returns the marker of each facet that is in a surface; it may be 0.
+  [[nodiscard]] std::vector<std::optional<int>> apply(MeshData& mesh, InpText& text,
+                                                      const InpElements& elements, const InpSets& sets,
+                                                      const InpShownName& shown, NamedIds& names) const;
 
  private:
   struct Side {

@@ -82,6 +82,8 @@ class Formats(CliTest):
         self.run_program("mesh", "cube.off", "-o", "a.inp", "--fill", "--shells")
         self.assertIn("TYPE=S3", (self.folder / "a.inp").read_text())
         self.run_program("check", "cube.off", "a.inp")
+        markers = json.loads(self.run_program("info", "a.inp", "--json").stdout)["markers"]
+        self.assertEqual([(m["id"], m["name"]) for m in markers], [(0, None)])
         for option in ("--binary", "--one-file", "--gzip", "--shells"):
             ended = self.run_program("mesh", "cube.off", "-o", "a.vtk", "--fill", option, expect=2)
             self.assertIn(f"{option} does nothing for .vtk", ended.stderr)
