@@ -58,12 +58,15 @@ std::string default_name(std::string_view stem, int id) {
   return std::string(stem) + "_" + std::to_string(id);
 }
 
-void give_ids(Labels& labels, const std::vector<int>& tags, std::size_t count, const IdRule& rule) {
+void give_ids(Labels& labels, const std::vector<int>& tags, std::size_t count,
+              const std::map<int, std::string>& names, const IdRule& rule) {
   std::set<int> used;
   for (std::size_t i = 0; i < count; ++i) used.insert(tag_of(tags, i));
   const std::set<int> wanted = used;
   const auto taken = [&](int id) { return rule.taken != nullptr && rule.taken->contains(id); };
   if (rule.taken != nullptr) used.insert(rule.taken->begin(), rule.taken->end());
+  // What another id gets must not take the name of an id without entities.
+  for (const auto& [id, name] : names) used.insert(id);
   for (const int id : wanted) {
     if ((!rule.positive || (id > 0 && id <= rule.most)) && !taken(id)) continue;
     const int number = first_free(used);
@@ -150,7 +153,7 @@ Labels labels_of(std::string_view stem, const std::vector<int>& tags, std::size_
                  const std::map<int, std::string>& names, const NameRule& name_rule, const IdRule& id_rule) {
   Labels labels;
   labels.stem = stem;
-  give_ids(labels, tags, count, id_rule);
+  give_ids(labels, tags, count, names, id_rule);
   give_names(labels, names, name_rule);
   return labels;
 }

@@ -51,8 +51,8 @@ struct Labels {
 inline constexpr std::string_view kRegionStem = "region", kFacetStem = "surface", kSegmentStem = "curve",
                                   kVertexStem = "point";
 
-/// An id that the format does not allow is replaced by the first number, from 1, that these entities do not
-/// use.
+/// An id that the format does not allow is replaced by the first number, from 1, that neither these entities
+/// nor their names use.
 [[nodiscard]] Labels labels_of(std::string_view stem, const std::vector<int>& tags, std::size_t count,
                                const std::map<int, std::string>& names, const NameRule& name_rule,
                                const IdRule& id_rule = {});

@@ -137,6 +137,25 @@ TEST(Patches, GoRoundMarkersThatAreThere) {
   EXPECT_EQ(std::count(box.facet_markers.begin(), box.facet_markers.end(), 2), 1);
 }
 
+TEST_F(NamesOfFiles, OfIdsWithoutEntitiesAreNotGivenToOthers) {
+  Volume volume;
+  volume.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  volume.tetrahedra = {{0, 1, 2, 3}};
+  volume.regions = {0};
+  volume.facets = {{0, 2, 1}, {0, 1, 3}};
+  volume.facet_markers = {0, 2};
+  volume.names.facets = {{1, "gone"}, {2, "there"}};
+  volume.names.regions = {{1, "gone, too"}};
+  for (const std::string name : {"a.msh", "a.bdf", "a.unv", "a.exo", "a.k", "a.cdb", "a.vol", "a.med"}) {
+    write_volume(folder_ / name, volume);
+    Volume read = read_volume(folder_ / name);
+    std::sort(read.facet_markers.begin(), read.facet_markers.end());  // formats sort facets by their markers
+    EXPECT_EQ(read.facet_markers, (std::vector<int>{0, 2})) << name;
+    EXPECT_EQ(read.names.facets, (ByMarker{{2, "there"}})) << name;
+    EXPECT_TRUE(read.names.regions.empty()) << name;
+  }
+}
+
 // As Gmsh writes them with Mesh.SaveAll: an entity without a group has its own number, which may equal a
 // group's.
 TEST_F(NamesOfFiles, OfGroupsAreNotThoseOfEntitiesWithTheirNumber) {
