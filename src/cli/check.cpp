@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "check_folder.h"
 #include "check_repaired.h"
@@ -12,6 +13,7 @@
 #include "common_options.h"
 #include "files.h"
 #include "files_of_run.h"
+#include "holdfast/patches.h"
 #include "limits.h"
 #include "page.h"
 #include "report.h"
@@ -25,6 +27,7 @@ struct CheckArguments {
   std::filesystem::path report, parents, verdict, html;
   std::string input_format, format;
   double tolerance = 0;
+  std::optional<double> markers_by_angle;
   CheckOptions options;
   LimitArguments limits;
   bool repaired = false, surface_of = false, quiet = false;
@@ -59,21 +62,20 @@ bool is_meant_as_folder(const std::filesystem::path& file) {
 }
 
 int run_on_folder(const CheckArguments& arguments, const CheckOptions& options) {
-  if (options.outside_dropped || options.box || arguments.surface_of || !arguments.input_format.empty() ||
-      !arguments.format.empty() || !arguments.html.empty())
+  if (options.outside_dropped || options.box || arguments.surface_of || arguments.markers_by_angle ||
+      !arguments.input_format.empty() || !arguments.format.empty() || !arguments.html.empty())
     throw UsageError(
-        "check: --outside-dropped, --box, --surface-of, --format, --input-format and --html do nothing for a "
-        "folder, whose manifest tells all that");
+        "check: --outside-dropped, --box, --surface-of, --markers-by-angle, --format, --input-format and "
+        "--html do nothing for a folder, whose manifest tells all that");
   return check_folder({arguments.files[0], arguments.report, options, arguments.quiet});
 }
 
 int run_repaired(const CheckArguments& arguments) {
   if (arguments.options.outside_dropped || arguments.options.box || arguments.surface_of ||
-      !arguments.html.empty())
+      arguments.markers_by_angle || !arguments.html.empty())
     throw UsageError(
-        "check: --outside-dropped, --box, --surface-of and --html are about volumes, and --repaired is about "
-        "a "
-        "surface");
+        "check: --outside-dropped, --box, --surface-of, --markers-by-angle and --html are about volumes, and "
+        "--repaired is about a surface");
   RepairedFiles files;
   files.inputs.assign(arguments.files.begin(), arguments.files.end() - 1);
   files.output = arguments.files.back();
@@ -100,8 +102,10 @@ bool holds_but_outside(const Complex& surface, const Volume& volume, CheckOption
 int check_files(const CheckArguments& arguments, const CheckOptions& options,
                 const std::vector<std::filesystem::path>& surfaces, const FilesOfRun& files) {
   const std::filesystem::path& volume_path = arguments.files.back();
-  const Surface surface = read_surfaces(
-      surfaces, reading(options, arguments.input_format, arguments.tolerance), arguments.surface_of);
+  Surface surface = read_surfaces(surfaces, reading(options, arguments.input_format, arguments.tolerance),
+                                  arguments.surface_of);
+  if (arguments.markers_by_angle && markers_by_angle(surface, *arguments.markers_by_angle) == 0)
+    throw UsageError("--markers-by-angle does nothing: every triangle of the surface has a marker already");
   if (!arguments.quiet) tell(surface.remarks);
   const Volume volume = read_volume(volume_path, reading(options, arguments.format));
 
@@ -164,6 +168,12 @@ void add_check(CLI::App& app, Command& chosen) {
                     "The mesh extends to an enclosing box (mesh --keep box)");
   command->add_flag("--surface-of", arguments->surface_of,
                     "SURFACE is a volume file, whose surface and interfaces were meshed (mesh --surface-of)");
+  command
+      ->add_option(
+          "--markers-by-angle", arguments->markers_by_angle,
+          "Triangles without a marker were given one for each smooth patch (mesh --markers-by-angle)")
+      ->check(CLI::Range(0.0, 180.0))
+      ->option_text("DEG");
   command->add_flag("--repaired", arguments->repaired,
                     "The last file is what `repair` made of the others, as --parents and --report claim");
   command

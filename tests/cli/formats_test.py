@@ -72,6 +72,17 @@ class Formats(CliTest):
         self.assertIn("1 name of a marker is changed to what .inp allows", ended.stderr)
         self.assertIn("ELSET=region_1", (self.folder / "b.inp").read_text())
 
+    def test_markers_by_angle_of_a_surface_with_some_markers(self):
+        triangles = "".join("%d %d %d %d\n" % (*(v + 1 for v in f), 7 * (i < 2)) for i, f in enumerate(CUBE_FACETS))
+        points = "".join("%s %s %s 0\n" % p for p in CUBE_POINTS)
+        self.write("a.mesh", f"MeshVersionFormatted 2\nDimension 3\nVertices 8\n{points}Triangles 12\n{triangles}End\n")
+        self.run_program("mesh", "a.mesh", "-o", "a.vtu", "--fill", "--markers-by-angle", "30")
+        self.run_program("check", "a.mesh", "a.vtu", "--markers-by-angle", "30")
+        self.run_program("check", "a.mesh", "a.vtu", "--markers-by-angle", "100", expect=6)
+        self.run_program("check", "a.mesh", "a.vtu", expect=6)
+        self.run_program("mesh", "a.mesh", "-o", "b.vtu", "--fill")
+        self.run_program("check", "a.mesh", "b.vtu", "--markers-by-angle", "30", expect=6)
+
     def test_options_on_how_a_file_is_written(self):
         self.run_program("mesh", "cube.off", "-o", "a.msh", "--fill", "--binary")
         self.assertIn(b"4.1 1 8", (self.folder / "a.msh").read_bytes()[:40])
