@@ -79,10 +79,10 @@ std::string listed(const std::set<int>& ids) {
   std::vector<std::string> texts;
   for (const int id : ids) {
     if (texts.size() == most)
-      return fmt::format("there are {}, ... ({} in all)", fmt::join(texts, ", "), ids.size());
+      return fmt::format("the ids are {}, ... ({} in all)", fmt::join(texts, ", "), ids.size());
     texts.push_back(std::to_string(id));
   }
-  return fmt::format("there {} {}", texts.size() == 1 ? "is" : "are", fmt::join(texts, ", "));
+  return fmt::format("the {} {}", texts.size() == 1 ? "only id is" : "ids are", fmt::join(texts, ", "));
 }
 
 }  // namespace

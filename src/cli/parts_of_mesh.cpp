@@ -146,7 +146,7 @@ void take_regions(Volume& volume, const std::vector<std::string>& regions) {
     const std::vector<int> named = region_ids(region, volume.names);
     const bool found = std::any_of(named.begin(), named.end(), [&](int id) { return present.count(id) > 0; });
     if (!found)
-      throw UsageError(fmt::format("--only region={}: there is no such region; there are {}", region,
+      throw UsageError(fmt::format("--only region={}: there is no such region; its regions are {}", region,
                                    listed(present, volume.names)));
     ids.insert(named.begin(), named.end());
   }

@@ -7,6 +7,7 @@
 
 #include "io/bdf_card.h"
 #include "io/cells.h"
+#include "io/exact_nodes.h"
 #include "io/fields.h"
 #include "io/formats.h"
 #include "io/labels.h"
@@ -60,9 +61,11 @@ class BdfReader {
     text_.seek(start);
   }
 
-  /// Reads $HMNAME PROP <id>"<name>" or $ANSA_NAME_COMMENT;<id>;<card>;<name>, or our comments for ids.
+  /// Reads $HMNAME PROP <id>"<name>" or $ANSA_NAME_COMMENT;<id>;<card>;<name>, or our comments for ids and
+  /// exact coordinates.
   void read_comment(std::string_view line) {
     if (read_id_comment(line.substr(1), std::array{&regions_, &markers_})) return;
+    exact_nodes_.read(line.substr(1));
     const std::string lowered = lower(line.substr(0, 20));
     std::string_view number, name;
     if (lowered.starts_with("$hmname prop")) {
@@ -146,7 +149,8 @@ class BdfReader {
   }
 
   void read_grid() {
-    nodes_.add(integer_of(text_, field(0), "a grid point's number"));
+    const std::int64_t number = integer_of(text_, field(0), "a grid point's number");
+    nodes_.add(number);
     if (field(1).empty())
       has_default_system_ = true;
     else if (integer_of(text_, field(1), "a coordinate system") != 0)
@@ -154,7 +158,7 @@ class BdfReader {
     Point point{};
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!field(2 + axis).empty()) point[axis] = real_of(text_, field(2 + axis), "a coordinate");
-    mesh_.vertices.push_back(point);
+    mesh_.vertices.push_back(exact_nodes_.of(number, point));
   }
 
   /// GRDSET, before or after the grid points, sets the coordinate system of those that name none.
@@ -223,6 +227,7 @@ class BdfReader {
   std::size_t place_ = 0, behind_ = 0;  ///< where the card begins and ends
   MeshData mesh_;
   Numbered nodes_;
+  ExactNodes exact_nodes_{nastran_rounded};
   std::vector<Element> elements_;
   std::map<int, std::string> comments_;
   std::map<int, int> ids_of_regions_, ids_of_markers_;

@@ -1,12 +1,11 @@
 // Writes Nastran's bulk data, .bdf (MSC Nastran quick reference guide, "Bulk data entries"): coordinates in
 // fields of 16 characters, elements in fields of 8. Properties are the regions and markers, with names in
-// comments as HyperMesh writes them.
-#include <algorithm>
+// comments as HyperMesh writes them. Exact coordinates are in comments, too (exact_nodes.h).
 #include <charconv>
 #include <cmath>
 
+#include "io/exact_nodes.h"
 #include "io/solver_text.h"
-#include "text/count.h"
 #include "text/parse.h"
 
 namespace holdfast::io {
@@ -87,12 +86,7 @@ std::string nastran_real(double value) {
   return text(std::chars_format::scientific, 5);
 }
 
-namespace {
-
-/// Whether a number reads back unchanged.
-bool is_exact(double value) { return value_of(nastran_real(value)) == value; }
-
-}  // namespace
+double nastran_rounded(double value) { return value_of(nastran_real(value)); }
 
 void write_bdf(AtomicWriter& out, const Volume& volume) {
   const std::size_t elements = volume.tetrahedra.size() + volume.facets.size();
@@ -115,6 +109,7 @@ void write_bdf(AtomicWriter& out, const Volume& volume) {
       original.names[id] = labels.facets.names.at(number);
     write_id_comments(out, "$", original);
   }
+  write_exact_nodes(out, volume, "$", nastran_rounded);
   out << "BEGIN BULK\n";
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());
@@ -152,14 +147,6 @@ std::vector<Remark> not_in_bdf(const Volume& volume, const WriteOptions&) {
   const BdfLabels labels = labels_of(volume);
   tell(labels.regions, ".bdf", remarks);
   tell(labels.facets, ".bdf", remarks);
-  const auto rounded = static_cast<std::size_t>(std::count_if(
-      volume.vertices.begin(), volume.vertices.end(),
-      [](const Point& p) { return std::any_of(p.begin(), p.end(), [](double x) { return !is_exact(x); }); }));
-  if (rounded > 0)
-    remarks.push_back({RemarkKind::not_held, rounded,
-                       counted(rounded, "vertex has", "vertices have") +
-                           " coordinates of more figures than the 16 "
-                           "characters of .bdf, which are rounded"});
   tell_left_out(volume, ".bdf", false, true, remarks);
   return remarks;
 }

@@ -69,7 +69,7 @@ class DynaText {
   void next_line();
 
   TextReader text_;
-  ExactNodes exact_nodes_{kDynaCharacters};
+  ExactNodes exact_nodes_{rounded_for_dyna};
   std::string_view line_;
   std::size_t place_ = 0, line_at_ = 0, behind_ = 0;  ///< of the line read last, this one, and the next
   std::string keyword_;

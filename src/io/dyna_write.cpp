@@ -38,7 +38,7 @@ void column(AtomicWriter& out, std::uint64_t value, std::size_t width) {
 }
 
 void write_nodes(AtomicWriter& out, const Volume& volume) {
-  write_exact_nodes(out, volume, "$", kDynaCharacters);
+  write_exact_nodes(out, volume, "$", rounded_for_dyna);
   out << "*NODE\n";
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());

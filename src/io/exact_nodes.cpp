@@ -37,9 +37,7 @@ double rounded(double value, std::size_t most) {
   return result;
 }
 
-Point rounded(const Point& p, std::size_t most) {
-  return {rounded(p[0], most), rounded(p[1], most), rounded(p[2], most)};
-}
+Point rounded(const Point& p, Rounding rounding) { return {rounding(p[0]), rounding(p[1]), rounding(p[2])}; }
 
 }  // namespace
 
@@ -58,11 +56,14 @@ std::string short_real(double value, std::size_t most) {
   }
 }
 
-void write_exact_nodes(AtomicWriter& out, const Volume& volume, std::string_view mark, std::size_t most) {
+double rounded_for_inp(double value) { return rounded(value, kInpCharacters); }
+double rounded_for_dyna(double value) { return rounded(value, kDynaCharacters); }
+
+void write_exact_nodes(AtomicWriter& out, const Volume& volume, std::string_view mark, Rounding rounding) {
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());
     const Point& p = node(volume, i);
-    if (rounded(p, most) != p)
+    if (rounded(p, rounding) != p)
       out << mark << " exact " << std::uint64_t{i} + 1 << ' ' << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
   }
 }
@@ -81,7 +82,7 @@ void ExactNodes::read(std::string_view comment) {
 
 const Point& ExactNodes::of(std::int64_t node, const Point& point) const {
   const auto found = points_.find(node);
-  return found != points_.end() && rounded(found->second, most_) == point ? found->second : point;
+  return found != points_.end() && rounded(found->second, rounding_) == point ? found->second : point;
 }
 
 }  // namespace holdfast::io

@@ -88,6 +88,8 @@ void write_bdf(AtomicWriter& out, const Volume& volume);
 [[nodiscard]] std::vector<Remark> not_in_bdf(const Volume& volume, const WriteOptions& options);
 /// A number in at most 16 characters, as precise as they allow.
 [[nodiscard]] std::string nastran_real(double value);
+/// The double of this number; infinite if rounding up leaves the range.
+[[nodiscard]] double nastran_rounded(double value);
 /// Writes .node, .ele, .face and .edge beside `path`.
 void write_tetgen(const std::filesystem::path& path, const Volume& volume, Watch* watch = nullptr);
 void write_gmf(AtomicWriter& out, const Volume& volume);

@@ -106,7 +106,7 @@ class InpText {
  private:
   TextReader text_;
   InpNames& names_;
-  ExactNodes exact_nodes_{kInpCharacters};
+  ExactNodes exact_nodes_{rounded_for_inp};
   std::string_view line_;
   InpScope scope_;
 };

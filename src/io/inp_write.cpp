@@ -99,7 +99,7 @@ void write_inp(AtomicWriter& out, const Volume& volume, const WriteOptions& opti
   const bool second = is_second_order(volume);
   out << "*HEADING\nmesh by Holdfast\n";
   for (const Labels* labels : {&data.regions, &data.facets}) write_id_comments(out, "**", *labels);
-  write_exact_nodes(out, volume, "**", kInpCharacters);
+  write_exact_nodes(out, volume, "**", rounded_for_inp);
   out << "*NODE\n";
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());

@@ -131,7 +131,7 @@ class Convert(CliTest):
             self.run_program("convert", "boxes.vtu", "bad.vtu", "--only", *bad, expect=2)
             self.assertNotIn("bad.vtu", self.files())
         found = self.run_program("convert", "boxes.vtu", "bad.vtu", "--name", "region:20=core", "--only", "region=7", expect=2)
-        self.assertIn("there are 10, 20 (core)", found.stderr)
+        self.assertIn("its regions are 10, 20 (core)", found.stderr)
         self.run_program("convert", "cube.off", "bad.vtu", "--only", "volume", expect=2)
 
     def test_scale(self):

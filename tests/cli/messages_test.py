@@ -206,8 +206,8 @@ class LongLists(CliTest):
     def test_names_that_nothing_has(self):
         names = ["--name", "region:7=x", "--name", "region:1=core", "--name", "3=wall", "--name", "0=skin", "--name", "segment:4=rim"]
         said = self.run_program("mesh", "cube.off", "-o", "v.vtu", *names).stderr
-        self.assertIn("--name region:7=x does nothing: there is no such region; there is 1\n", said)
-        self.assertIn("--name 3=wall does nothing: no triangle has the marker 3; there is 0\n", said)
+        self.assertIn("--name region:7=x does nothing: there is no such region; the only id is 1\n", said)
+        self.assertIn("--name 3=wall does nothing: no triangle has the marker 3; the only id is 0\n", said)
         self.assertIn("--name segment:4=rim does nothing: no segment has the marker 4; there is none at all\n", said)
         self.assertEqual(said.count("does nothing"), 3)
         said = self.run_program("convert", "v.vtu", "w.vtu", *names).stderr

@@ -58,7 +58,7 @@ std::vector<Held> formats() {
           {"a.cdb"},
           {"a.feb"},
           {"a.fluent", true, true, true, false, {}, false},
-          {"a.bdf", false},
+          {"a.bdf"},
           {"a.mfem", true, true, true, false},
           {"a.su2", true, false, false, false}};
 }
