@@ -110,11 +110,20 @@ void write_html(const RepairArguments& arguments, const Limits& limits, const Su
   page.write();
 }
 
-/// Reports vertices of the input that are kept although a union drops everything on them.
-void tell_what_union_leaves(const Surface& before, const Surface& after) {
+/// Reports a union that drops most triangles, as of a part with a hole, and vertices of the input that are
+/// kept although it drops everything on them.
+void tell_what_union_leaves(const Surface& before, const RepairResult& result) {
+  const Surface& after = result.surface;
+  const auto dropped = static_cast<std::size_t>(
+      std::count_if(result.dropped.begin(), result.dropped.end(),
+                    [](const RepairResult::Dropped& d) { return d.reason == DropReason::inner; }));
   if (after.facets.empty() && !before.facets.empty())
     say("note: no triangle is left, as no connected part of the input encloses anything; `holdfast diagnose` "
         "proposes what closes gaps and holes, without --union\n");
+  else if (dropped > before.facets.size() / 2)
+    say("note: {} of {} triangles have material on both sides or, as those of an open part, on neither; "
+        "`holdfast diagnose` proposes what closes gaps and holes, without --union\n",
+        dropped, before.facets.size());
   const std::vector<bool> was = in_use(before), is = in_use(after);
   std::size_t alone = 0;
   for (std::size_t v = 0; v < was.size(); ++v) alone += static_cast<std::size_t>(was[v] && !is[v]);
@@ -139,7 +148,7 @@ int repair_files(const RepairArguments& arguments, const RepairOptions& options,
   result.surface.holes = surface.holes;
   if (result.outcome == Outcome::done) {
     write_and_tell(arguments, result.surface, writing, arguments.quiet);
-    if (!arguments.quiet && options.unite) tell_what_union_leaves(surface, result.surface);
+    if (!arguments.quiet && options.unite) tell_what_union_leaves(surface, result);
     write_parents(arguments.parents, surface.facets.size(), result);
   }
   write_exact(arguments.exact, surface, result);

@@ -221,7 +221,12 @@ class WhatIsMade(Repaired):
         self.write("in.off", off(CUBE_POINTS, CUBE_FACETS[:-1]))
         self.assertIn("no triangle is left", self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr)
         self.write("in.off", off(CUBE_POINTS, CUBE_FACETS))
-        self.assertNotIn("no triangle is left", self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr)
+        self.assertNotIn("note: ", self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr)
+        apart = [(3, 0, 0), (4, 0, 0), (3, 1, 0), (3, 0, 1)]
+        tetrahedron = [(8, 10, 9), (8, 9, 11), (9, 10, 11), (10, 8, 11)]
+        self.write("in.off", off(CUBE_POINTS + apart, CUBE_FACETS[:-1] + tetrahedron))
+        self.assertIn("note: 11 of 15 triangles have material on both sides or, as those of an open part, on neither",
+                      self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr)
 
     def test_union(self):
         self.write("in.off", off(*two_cubes()))
