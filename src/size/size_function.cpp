@@ -79,6 +79,22 @@ double share_of_steep(std::span<const double> of_vertex, const Complex& complex,
   return static_cast<double>(steep) / static_cast<double>(std::max<std::ptrdiff_t>(all, 1));
 }
 
+// No size inside is larger: a bound on those of the vertices and their growth over the whole extent.
+double largest_size(std::span<const double> of_vertex, double gradation, const Complex& complex, int scale) {
+  double largest = 0;
+  Point low{kNoLimit, kNoLimit, kNoLimit}, high{-kNoLimit, -kNoLimit, -kNoLimit};
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) {
+    if (!(of_vertex[v] < kNoLimit)) continue;
+    largest = std::max(largest, of_vertex[v]);
+    const Point p = times_power(complex.vertices[v], scale);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  return largest > 0 ? largest + gradation * numbers::distance(low, high) : kNoLimit;
+}
+
 // Where the sizes of the surface grow much faster than those inside, as on surfaces full of needles, slow
 // growth would fill the volume with small elements and improve few of them.
 double default_gradation(double steepness) {
@@ -127,6 +143,14 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
       return h;
     };
   limit_regions(sizes, seeds, kept);
+  // A box round the surface may be much larger than its extent. Elsewhere a limit above all sizes is none.
+  if (has_limit_of_region_ && kept.rule != Keep::box && !field_ && !metric_ && most_volumes_.empty()) {
+    const double largest = largest_size(of_vertex_, gradation_, complex, scale);
+    std::replace_if(
+        of_region_.begin(), of_region_.end(), [&](double h) { return h >= largest; }, kNoLimit);
+    has_limit_of_region_ =
+        std::any_of(of_region_.begin(), of_region_.end(), [](double h) { return h < kNoLimit; });
+  }
   // A metric is obeyed as given, and a bound on volumes is exact.
   if (heeds_facets()) of_facets_ = sizes_of_facets(complex, threads);
 }

@@ -145,7 +145,7 @@ TEST(Gradation, SizesGrowFasterWhereThoseOfTheSurfaceJump) {
 }
 
 TEST(Front, PutsFewerPointsWhereSizesOfTheSurfaceJumpAndNobodyAsksForOthers) {
-  // Those of the front over the same with a size that is asked for, but larger than any.
+  // Those of the front over the same with a size that is asked for, but larger than any there.
   const auto part = [](const Surface& surface) {
     const auto count = [&](double size) {
       Options options;
@@ -153,10 +153,25 @@ TEST(Front, PutsFewerPointsWhereSizesOfTheSurfaceJumpAndNobodyAsksForOthers) {
       return static_cast<double>(
           mesh_with(surface, {.size = size, .gradation = 0.5}, options).report.field.points);
     };
-    return count(0) / count(1000);
+    return count(0) / count(2);
   };
   EXPECT_LT(part(with_jumps()), 0.95);
   EXPECT_EQ(part(hard::icosphere(2)), 1);
+}
+
+TEST(SizeOfAllRegions, AboveAllSizesOfTheSurfaceIsNone) {
+  const Result none = mesh_with(with_jumps(), {}), idle = mesh_with(with_jumps(), {.size = 1000});
+  EXPECT_EQ(idle.volume.vertices, none.volume.vertices);
+  EXPECT_EQ(idle.volume.tetrahedra, none.volume.tetrahedra);
+  const auto tetrahedra_in_box = [&](double size) {
+    Options box;
+    box.keep = Keep::box;
+    box.box_margin = 5;
+    box.sizes = Sizes{.size = size};
+    const Surface surface = hard::icosphere(0);
+    return mesh(surface.view(), box).volume.tetrahedra.size();
+  };
+  EXPECT_GT(tetrahedra_in_box(2.2), 2 * tetrahedra_in_box(0));
 }
 
 }  // namespace
