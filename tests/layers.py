@@ -16,9 +16,9 @@ from pathlib import Path
 ONLY = {"check": {"text", "numbers", "exact"}, "check_repair": {"text", "numbers", "exact", "check"},
         "io": {"text", "numbers", "metric"}}
 # Threads and limits are in the folder of the mesh but independent of it, the tables of places and of isolated vertices
-# need only the surface, and one header turns polygons into triangles.
-BESIDES = {"io": {"mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h", "surface/isolated.h", "plane/facets.h",
-                 "second_order/edge_numbers.h", "second_order/edges_of.h", "size/flat_field.h"}}
+# need only the surface, one header turns polygons into triangles, and exact signs tell how files orient tetrahedra.
+BESIDES = {"io": {"exact/predicates.h", "mesh/parallel.h", "mesh/plain_monitor.h", "surface/weld.h",
+                 "surface/isolated.h", "plane/facets.h", "second_order/edge_numbers.h", "second_order/edges_of.h", "size/flat_field.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.*?)\)"|"(?:\\.|[^"\\\n])*"', re.S)

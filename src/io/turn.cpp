@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include "exact/predicates.h"
 #include "text/count.h"
 
 namespace holdfast::io {
 namespace {
-
-double volume_in_plain_arithmetic(const Tetrahedron& t, const std::vector<Point>& vertices) {
-  std::array<Point, 3> e{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k) e[i][k] = vertices[t[i + 1]][k] - vertices[t[0]][k];
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
 
 void reverse(MeshData& mesh, Index tetrahedron) {
   std::swap(mesh.tetrahedra[tetrahedron][1], mesh.tetrahedra[tetrahedron][2]);
@@ -44,7 +37,12 @@ bool fit_at_faces(const std::vector<Tetrahedron>& tetrahedra) {
 }  // namespace
 
 bool is_turned(const Tetrahedron& t, const std::vector<Point>& vertices) {
-  return volume_in_plain_arithmetic(t, vertices) < 0;
+  const auto is_finite = [&](Index v) {
+    return std::all_of(vertices[v].begin(), vertices[v].end(), [](double x) { return std::isfinite(x); });
+  };
+  if (!std::all_of(t.begin(), t.end(), is_finite)) return false;
+  return exact::orient3d(vertices[t[0]].data(), vertices[t[1]].data(), vertices[t[2]].data(),
+                         vertices[t[3]].data()) < 0;
 }
 
 void turn_if_all_are_turned(MeshData& mesh, const std::string& remark) {

@@ -17,7 +17,8 @@ void turn_if_all_are_turned(MeshData& mesh, const std::string& remark);
 /// these are reversed. A tangled mesh, whose neighbours fit as they are, stays.
 void turn_to_vtk(MeshData& mesh);
 
-/// Whether the volume of a tetrahedron is negative in plain arithmetic: no topology depends on it.
+/// Whether the volume of a tetrahedron is negative, by its exact sign: a mesh of tetrahedra that are flat to
+/// the last bits must not be reversed. False if a corner is not finite.
 [[nodiscard]] bool is_turned(const Tetrahedron& t, const std::vector<Point>& vertices);
 
 }  // namespace holdfast::io

@@ -89,6 +89,23 @@ TEST_F(VtkLists, TetrahedraThatAreAllNegativeAreReversedAndTold) {
   }
 }
 
+TEST_F(VtkLists, FlatTetrahedraThatAreNegativeInPlainArithmeticAloneStay) {
+  // Of 1e-30; a repaired race track has them.
+  Volume volume;
+  volume.vertices = {{415.898, 8.0384799782245, -6.00812673398422e-05},
+                     {406.5230000266864, 8.03847998391196, -4.506004146969719e-05},
+                     {406.52300001876296, 8.03847998391196, -4.506004145700172e-05},
+                     {406.5230000266864, 8.03847998391196, -4.506004146968684e-05}};
+  volume.tetrahedra = {{0, 1, 2, 3}};
+  volume.regions = {0};
+  for (const char* name : {"a.vtu", "a.vtk", "a.xdmf", "a.med"}) {
+    write_volume(folder_ / name, volume);
+    std::vector<Remark> remarks;
+    EXPECT_EQ(read_volume(folder_ / name, {}, &remarks).tetrahedra, volume.tetrahedra) << name;
+    EXPECT_TRUE(remarks.empty()) << name;
+  }
+}
+
 TEST_F(VtkLists, TetrahedraWithoutAnOrientationGetOne) {
   // Corners by their numbers, as legacy DOLFIN lists them.
   Volume volume;
