@@ -142,8 +142,8 @@ class Arranging {
     cut_.resize(sheets_.size());
     const std::thread::id caller = std::this_thread::get_id();
     std::size_t done = 0;
-    // Other sheets may count the points of a sheet again.
-    const std::size_t far_too_many = options_.far_too_many();
+    // No crossing of a sheet is a point that was there before.
+    const std::size_t most = options_.far_too_many() - std::min(options_.far_too_many(), pool_.added());
     parallel_ranges(options_.threads, sheets_.size(), [&](std::size_t first, std::size_t last) {
       const bool tells = std::this_thread::get_id() == caller;
       std::size_t polls = 0;
@@ -153,8 +153,8 @@ class Arranging {
       };
       for (std::size_t k = first; k < last; ++k) {
         const Gathered& sheet = sheets_[k];
-        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces, sheet.on_sides, far_too_many},
-                              complex_, elements_, pool_, crossings, poll);
+        cut_[k] = triangulate({sheet.facets, sheet.points, sheet.traces, sheet.on_sides, most}, complex_,
+                              elements_, pool_, crossings, poll);
         cut_[k].triangles.shrink_to_fit();
         cut_[k].parents.shrink_to_fit();
         cut_[k].first_parent.shrink_to_fit();

@@ -9,6 +9,7 @@
 // an element that cuts the line in one sheet meets the other sheet there, too.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -66,11 +67,11 @@ struct ArrangeOptions {
   std::size_t most_pairs = SIZE_MAX;   ///< that do not fit; more of them throw TooManyPoints, too
   bool keeps_points = false;           ///< the exact new points are asked for
 
-  /// A number of points that is too many even if each is counted several times.
-  [[nodiscard]] std::size_t far_too_many() const {
-    constexpr std::size_t kFar = 16;
-    return most_points < SIZE_MAX / kFar ? kFar * most_points : SIZE_MAX;
-  }
+  /// With too many points, whether there are more than this matters, too.
+  std::size_t counts_to = 0;
+
+  /// So many points of one sheet are too many, without a look at others.
+  [[nodiscard]] std::size_t far_too_many() const { return std::max(most_points, counts_to); }
 };
 
 class TooManyPoints : public std::exception {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <unordered_map>
 
 #include "arrange/arrange.h"
+#include "arrange/count_crossings.h"
 #include "arrange/fits_rounded.h"
 #include "arrange/flat_mesh.h"
 #include "exact/predicates.h"
@@ -205,12 +207,56 @@ void insert_points(const Given& given, SheetPoints& all, FlatMesh& mesh, const p
 
 // --- Traces
 
+/// The ends of the sides of the facets, if there are several, and of the traces, each once.
+std::vector<std::array<Index, 2>> ends_of_lines(const Given& given) {
+  std::vector<std::array<Index, 2>> ends;
+  if (!given.is_single)
+    for (const Index f : given.input.facets)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::array<Index, 3>& v = given.facet(f).vertex;
+        ends.push_back(ascending(std::array<Index, 2>{v[i], v[(i + 1) % 3]}));
+      }
+  for (const Trace& trace : given.input.traces) ends.push_back(ascending(trace.ends));
+  sort_unique(ends);
+  return ends;
+}
+
+/// The places of the points that the sheet has before lines cross.
+std::vector<Position> places_given(const Given& given, std::span<const std::array<Index, 2>> ends) {
+  std::vector<Index> points(given.input.points.begin(), given.input.points.end());
+  for (const auto& of_line : ends) points.insert(points.end(), of_line.begin(), of_line.end());
+  sort_unique(points);
+  std::vector<Position> places;
+  places.reserve(points.size());
+  for (const Index p : points) places.push_back(given.flat(given.pool.nearest(p)));
+  return places;
+}
+
+/// Ends a sheet that certainly gets too many crossings before it is triangulated: to count them takes a
+/// hundredth of the time.
+void check_crossings(const Given& given) {
+  const SheetInput& input = given.input;
+  const std::size_t most = input.most_crossings;
+  const auto are_few = [&](std::size_t lines) { return lines / 2 * lines <= most || most > SIZE_MAX / 2; };
+  if (are_few(input.traces.size() + (given.is_single ? 0 : 3 * input.facets.size()))) return;
+  const std::vector<std::array<Index, 2>> ends = ends_of_lines(given);
+  if (are_few(ends.size())) return;
+  std::vector<Piece> pieces;
+  pieces.reserve(ends.size());
+  for (const auto& [a, b] : ends)
+    pieces.push_back({given.flat(given.pool.nearest(a)), given.flat(given.pool.nearest(b))});
+  const std::size_t found = count_crossings(pieces, places_given(given, ends), most + 1);
+  if (found > most) throw TooManyPoints(given.pool.added() + found);
+}
+
 /// Inserts the traces and, if there are several facets, their sides.
 void insert_traces(const Given& given, SheetPoints& points, FlatMesh& mesh, Crossings& crossings,
                    const plane::Poll& poll) {
   SheetLines lines(given, crossings);
+  const std::size_t pool_size = given.pool.added();
   const FlatMesh::Crossing cross = [&](std::uint32_t a, std::uint32_t b) {
-    if (points.crossings() >= given.input.most_crossings) throw TooManyPoints(points.crossings() + 1);
+    if (points.crossings() >= given.input.most_crossings)
+      throw TooManyPoints(pool_size + points.crossings() + 1);
     return points.add_crossing(lines.crossing(a, b));
   };
   const auto insert = [&](const std::array<Index, 2>& ends, const Line& line) {
@@ -299,6 +345,7 @@ SheetTriangles triangulate(const SheetInput& input, const Complex& complex, cons
     return ascending(elements.all[f].vertex) == ascending(first.vertex);
   });
   const Given given{input, complex, elements, pool, first.axis, is_single};
+  check_crossings(given);
   SheetPoints points(given);
   FlatMesh mesh = begin(given, points);
   insert_points(given, points, mesh, poll);
