@@ -6,6 +6,7 @@
 #include <cmath>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 #include "api/scale.h"
 #include "api/unite.h"
@@ -22,6 +23,7 @@
 #include "repair/plans.h"
 #include "repair/rounding.h"
 #include "repair/weld.h"
+#include "text/decimal.h"
 
 namespace holdfast {
 namespace {
@@ -69,6 +71,7 @@ bool scale_back(repairing::Rounded& rounded, int k) {
     for (std::size_t i = 0; i < 3; ++i)
       if (std::isfinite(before[i]) && std::ldexp(p[i], k) != before[i]) return false;
   }
+  rounded.joined_within = std::ldexp(rounded.joined_within, -k);
   const double before = rounded.displacement;
   rounded.displacement = std::ldexp(before, -k);
   return std::ldexp(rounded.displacement, k) == before;
@@ -77,7 +80,8 @@ bool scale_back(repairing::Rounded& rounded, int k) {
 /// Sign filters need products that do not overflow or underflow; otherwise each sign would need exact
 /// arithmetic.
 repairing::Rounded round_scaled(const Complex& complex, repairing::State state, const RepairOptions& options,
-                                RepairResult& result, const Step& step, const Threads& threads) {
+                                RepairResult& result, const Step& step, const Threads& threads,
+                                repairing::Trials trials = repairing::Trials::all) {
   if (const int k = scale_of(complex, options); k != 0) {
     repairing::State moved = state;
     moved.vertices = scaled(state.vertices, k);
@@ -85,13 +89,14 @@ repairing::Rounded round_scaled(const Complex& complex, repairing::State state, 
     there.join = std::ldexp(options.join, k);
     RepairReport report = result.report;
     repairing::Rounded rounded =
-        repairing::round_arranged(std::move(moved), there, report, result.exact, step, threads);
+        repairing::round_arranged(std::move(moved), there, report, result.exact, step, threads, trials);
     if (scale_back(rounded, k)) {
       result.report = std::move(report);
       return rounded;
     }
   }
-  return repairing::round_arranged(std::move(state), options, result.report, result.exact, step, threads);
+  return repairing::round_arranged(std::move(state), options, result.report, result.exact, step, threads,
+                                   trials);
 }
 
 /// Whether a vertex of the input would be listed as moved by more than a tolerance.
@@ -124,7 +129,7 @@ void weld_thin(const Complex& complex, repairing::Rounded& rounded, const Repair
   RepairResult second;
   repairing::Rounded welded;
   try {
-    welded = round_scaled(complex, std::move(state), again, second, step, threads);
+    welded = round_scaled(complex, std::move(state), again, second, step, threads, repairing::Trials::little);
   } catch (const arrange::TooManyPoints&) {
     return;  // the first result is valid
   }
@@ -137,6 +142,11 @@ void weld_thin(const Complex& complex, repairing::Rounded& rounded, const Repair
   result.report.rung = std::max(result.report.rung, second.report.rung);
 }
 
+std::string told_less_joined(double join, double within) {
+  const std::string what = within > 0 ? "they are joined within " + decimal(within) : "none are joined";
+  return "joining within " + decimal(join) + " multiplies the facets, and most of them cross: " + what;
+}
+
 void run(const Complex& complex, const RepairOptions& options, PlainMonitor& monitor, RepairResult& result) {
   const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
   const Step step = [&](double fraction) { monitor.poll(fraction); };
@@ -146,6 +156,8 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,
                "no doubles were found for the new points with which the surface is valid");
+  if (rounded.joined_within < options.join)
+    result.message = told_less_joined(options.join, rounded.joined_within);
   if (options.weld > 0) weld_thin(complex, rounded, options, result, step, threads);
   if (welded > 0) {
     // Welding turns what is thinner than the tolerance into a line, which is lost unless other facets contain

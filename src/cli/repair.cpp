@@ -149,6 +149,7 @@ int repair_files(const RepairArguments& arguments, const RepairOptions& options,
   if (result.outcome == Outcome::done) {
     write_and_tell(arguments, result.surface, writing, arguments.quiet);
     if (!arguments.quiet && options.unite) tell_what_union_leaves(surface, result);
+    if (!arguments.quiet && !result.message.empty()) say("note: {}\n", result.message);
     write_parents(arguments.parents, surface.facets.size(), result);
   }
   write_exact(arguments.exact, surface, result);

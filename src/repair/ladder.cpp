@@ -51,6 +51,16 @@ void Ladder::try_no_more_than(const Ladder& other) {
   plans_ = std::min(other.next_plan_ + 1, kPlans.size());
 }
 
+bool Ladder::is_overgrown(std::size_t facets) const {
+  return !rounded_.is_valid && trouble_.size() > kMany && given_.facets.size() > most_when_joined(facets);
+}
+
+void Ladder::try_little() {
+  const auto is_much = [](const Plan& plan) { return plan.moves_input || plan.last_bits > kThinnest; };
+  plans_ = static_cast<std::size_t>(std::find_if(kPlans.begin(), kPlans.end(), is_much) - kPlans.begin());
+  is_welded_ = tries_little_ = true;
+}
+
 Rounded Ladder::run_in_plane(double most) {
   is_plane_ = true;
   most_displacement_ = most;
@@ -100,7 +110,7 @@ void Ladder::flatten_all(double gap, SidesOf sides) {
 
 void Ladder::try_plans(SidesOf sides) {
   sides_ = sides;
-  if (rounded_.is_valid || is_hopeless()) return;
+  if (rounded_.is_valid || is_hopeless() || (tries_little_ && trouble_.size() > kMany)) return;
   most_facets_ = is_plane_ ? most_in_plane(rounded_.state.facets.size()) : SIZE_MAX;
   if (!is_plane_ && !starts_welded())
     work_.most = kPlansOfMuchWork * kMuchWork.of(rounded_.state.facets.size());
@@ -232,6 +242,8 @@ void Ladder::join(const Plan& plan) {
 }
 
 void Ladder::join_from_best(const Plan& plan) {
+  const bool starts_best = best_ && stands_like(*best_);
+  const std::size_t done = work_.done;
   join(plan);
   if (is_done()) return;
   if (!best_ || trouble_.size() < best_->trouble.size()) {
@@ -239,8 +251,12 @@ void Ladder::join_from_best(const Plan& plan) {
     return;
   }
   if (grows_) return;
-  stand(*best_);
-  join(plan);
+  if (starts_best) {
+    work_.done += work_.done - done;  // the same once more would be in vain, and counts
+  } else {
+    stand(*best_);
+    join(plan);
+  }
   if (trouble_.size() == best_->trouble.size()) flatten_again(plan);
   if (trouble_.size() < best_->trouble.size())
     best_ = Attempt{rounded_.state, trouble_, rounded_.displacement};
@@ -288,7 +304,8 @@ void Ladder::flatten_all(State& state, const Clusters& clusters, double gap, dou
 }
 
 void Ladder::flatten_again(const Plan& plan) {
-  if (is_plane_ || trouble_.facets.empty()) return;
+  constexpr std::size_t kMostInVain = 3;  // found: none in vain before one that helped, or one
+  if (is_plane_ || trouble_.facets.empty() || in_vain_ >= kMostInVain) return;
   Attempt flat{rounded_.state, trouble_, rounded_.displacement};
   const RoundPlane round = round_plane();
   constexpr int kPasses = 4;
@@ -297,9 +314,13 @@ void Ladder::flatten_again(const Plan& plan) {
     const Flattened now = flatten(flat.state, gap, round, sides_, here(), flat.trouble.facets);
     has_shared_ |= now.has_shared;
     if (now.moved == 0) return;
+    if (pass == 0) ++in_vain_;
     flat.displacement = sum_above(flat.displacement, now.moved);
     flat.trouble = trouble_of(flat.state, here(), threads_, kTooMuch * trouble_.size());
-    if (flat.trouble.size() < trouble_.size()) return stand(std::move(flat));
+    if (flat.trouble.size() < trouble_.size()) {
+      in_vain_ = 0;
+      return stand(std::move(flat));
+    }
     if (flat.trouble.size() > kTooMuch * trouble_.size()) return;
   }
 }
@@ -355,10 +376,18 @@ bool Ladder::concerns_trouble(std::span<const Index> facets) const {
 
 bool Ladder::cut_flat() {
   const auto [first, second] = new_points_;
-  const std::optional<std::size_t> now = cut(std::min(options_.most_points, 100 + first + first / 8));
-  if (!now) return too_many_ > 1000 + 4 * first;
+  const std::size_t far_too_many = 1000 + 4 * first;
+  const std::optional<std::size_t> now =
+      cut(std::min(options_.most_points, 100 + first + first / 8), nullptr, far_too_many);
+  if (!now) return too_many_ > far_too_many;
   const std::size_t most = second == SIZE_MAX ? *now / 4 : std::min(second, *now);
   return rounded_.is_valid || cut(std::min(options_.most_points, 100 + most));
+}
+
+bool Ladder::stands_like(const Attempt& attempt) const {
+  const State &now = rounded_.state, &then = attempt.state;
+  return trouble_.facets == attempt.trouble.facets && trouble_.segments == attempt.trouble.segments &&
+         now.known == then.known && now.sheet == then.sheet && are_same(now, then);
 }
 
 void Ladder::stand(Attempt attempt) {
@@ -375,11 +404,12 @@ arrange::ArrangeOptions Ladder::at_most(std::size_t points) const {
   return options;
 }
 
-std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before) {
+std::optional<std::size_t> Ladder::cut(std::size_t most_points, State* before, std::size_t counts_to) {
   arrange::Arrangement arrangement;
   proven_.tell(rounded_.state);
   try {
     arrange::ArrangeOptions options = at_most(most_points);
+    options.counts_to = counts_to;
     options.keeps_points = report_.rounds == 0 && options_.exact;
     arrangement = arrangement_of(rounded_.state, here(), options);
   } catch (const arrange::TooManyPoints& many) {

@@ -44,6 +44,11 @@ class Ladder {
   /// Compares results with the surface before the repair, which must outlive this ladder.
   void compare_with(const State& before) { before_ = &before; }
   void leave_out_joining_all() { joins_all_ = false; }
+  /// Whether joining sheets made many times as many facets of `facets`, and much is in trouble after the cut.
+  [[nodiscard]] bool is_overgrown(std::size_t facets) const;
+
+  /// Joins within last bits alone, and only if few elements are in trouble.
+  void try_little();
   /// Tries no step beyond those that `other` needed.
   void try_no_more_than(const Ladder& other);
 
@@ -172,11 +177,13 @@ class Ladder {
   [[nodiscard]] static bool are_same(const State& a, const State& b);
 
   void stand(Attempt attempt);
+  /// Whether the present state is that one.
+  [[nodiscard]] bool stands_like(const Attempt& attempt) const;
 
   /// Cuts and rounds the current state. Returns the number of new points, or nothing if there would be more
   /// than `most_points`; the state is then unchanged. `before`, if given, is the same state, and learns which
   /// of its facets fit together.
-  std::optional<std::size_t> cut(std::size_t most_points, State* before = nullptr);
+  std::optional<std::size_t> cut(std::size_t most_points, State* before = nullptr, std::size_t counts_to = 0);
   /// For an arrangement with at most this many new points.
   [[nodiscard]] arrange::ArrangeOptions at_most(std::size_t points) const;
 
@@ -193,6 +200,7 @@ class Ladder {
   SidesOf sides_ = SidesOf::all_sheets;
   bool is_plane_ = false;
   bool joins_all_ = true;
+  bool tries_little_ = false;
   double welded_last_bits_ = 0;
   bool is_welded_ = false;  // kWeldedPlans were tried
   // Of kPlans: the next one, and how many to try.
@@ -210,6 +218,7 @@ class Ladder {
   Trouble trouble_;
   std::optional<OnceCut> once_cut_;
   std::optional<Attempt> best_;    // of the plans so far
+  std::size_t in_vain_ = 0;        // the last calls of flatten_again
   State flattened_;                // by the last call of begin_flat
   const State* before_ = nullptr;  // see compare_with
   ProvenSets proven_;              // for attempts that start again from the given surface

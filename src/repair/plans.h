@@ -71,6 +71,15 @@ inline constexpr MostWork kMuchWork{8'000'000, 1000}, kLittleWork{1'000'000, 250
 /// pass makes new overlaps.
 constexpr std::size_t most_in_later_passes(std::size_t facets) { return 1000 + facets; }
 
+/// Largest number of places where sides of bodies pass each other that get a vertex by welding, for so many
+/// vertices.
+constexpr std::size_t most_passings(std::size_t vertices) { return 1000 + 2 * vertices; }
+
+/// Largest number of facets that joining within the user's distance makes of so many, if much is in trouble
+/// after that. With more, the distance is as long as features, and these parts of it are tried.
+constexpr std::size_t most_when_joined(std::size_t facets) { return 1000 + 4 * facets; }
+inline constexpr std::array kPartsOfJoin{1.0, 0x1p-3, 0x1p-6, 0.0};
+
 /// How many elements in trouble count as few, and as many.
 inline constexpr std::size_t kFew = 100, kMany = 400;
 

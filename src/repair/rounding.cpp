@@ -57,6 +57,7 @@ class ArrangedRounding {
   Rounded run() {
     Rounded rounded = climb();
     report_.pairs += repeated_;
+    rounded.joined_within = joined_within_;
     if (rounded.is_valid) follow_given(rounded);
     rounded.state.facet_parents = composed(of_given_, std::move(rounded.state.facet_parents));
     rounded.state.input_vertices = input_vertices_;
@@ -65,12 +66,24 @@ class ArrangedRounding {
   }
 
  private:
-  /// A ladder whose first rungs have been tried.
+  /// A ladder whose first rungs have been tried. If joining within the user's distance multiplies the facets
+  /// in vain, less is tried, and none at last.
   Ladder begun(SidesOf sides) {
+    std::optional<Ladder> ladder;
+    for (const double part : kPartsOfJoin) {
+      ladder.emplace(begun(sides, part * options_.join));
+      if (joined_within_ == 0 || !ladder->is_overgrown(given_.facets.size())) break;
+    }
+    return *std::move(ladder);
+  }
+
+  Ladder begun(SidesOf sides, double join) {
+    joined_within_ = join;
     Ladder ladder(given_, options_, told_, {exact_, of_given_}, planes_, step_, threads_);
-    if (trials_ == Trials::near_trouble) ladder.leave_out_joining_all();
+    if (trials_ != Trials::all) ladder.leave_out_joining_all();
+    if (trials_ == Trials::little) ladder.try_little();
     ladder.compare_with(given_);
-    if (options_.join > 0) ladder.flatten_all(options_.join, sides);
+    if (join > 0) ladder.flatten_all(join, sides);
     ladder.begin();
     return ladder;
   }
@@ -131,6 +144,7 @@ class ArrangedRounding {
   const Parents of_given_;
   const std::size_t input_vertices_;
   const State given_;
+  double joined_within_ = 0;
   RoundedPlanes planes_;
 };
 

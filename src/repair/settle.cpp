@@ -11,6 +11,7 @@
 #include "repair/bend.h"
 #include "repair/near.h"
 #include "repair/passings.h"
+#include "repair/plans.h"
 #include "surface/aabb_tree.h"
 
 namespace holdfast::repairing {
@@ -111,11 +112,15 @@ class Settling {
 
   // --- 2. Sides that pass each other
 
-  /// Adds vertices there, unless there already is one within the gap.
+  /// Adds vertices there, unless there already is one within the gap. If bodies pass each other nearly
+  /// everywhere, their sheets lie upon each other, and vertices would not make them the same.
   void add_passings() {
+    const std::vector<SidesPass> passings =
+        passings_of(state_, trouble_, how_.passings, bodies_, gap_, work_, step_);
+    if (how_.passings == Passings::bodies && passings.size() > most_passings(vertices_.size())) return;
     Cells cells(gap_);
     for (const Index v : vertices_) cells.add(at(v));
-    for (const SidesPass& place : passings_of(state_, trouble_, how_.passings, bodies_, gap_, work_, step_)) {
+    for (const SidesPass& place : passings) {
       if (cells.has_near(place.middle)) continue;
       cells.add(place.middle);
       vertices_.push_back(static_cast<Index>(state_.vertices.size()));

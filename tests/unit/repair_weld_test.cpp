@@ -143,5 +143,35 @@ TEST(RepairWithWeld, SidesOfFacesThatCoincideStayAsTheyAre) {
   EXPECT_EQ(welded.surface.facets, surface.facets);
 }
 
+/// n blades along x stand upon n along y, a little above them.
+Surface combs(Index n) {
+  Surface surface;
+  const auto add = [&](const Point& a, const Point& b, const Point& c) {
+    const auto first = static_cast<Index>(surface.vertices.size());
+    surface.vertices.insert(surface.vertices.end(), {a, b, c});
+    surface.facets.push_back({first, first + 1, first + 2});
+  };
+  const double end = n;
+  for (Index k = 0; k < n; ++k) {
+    const double at = k + 0.25;
+    add({-1, at, 1e-9}, {end, at, 1e-9}, {-1, at, 1});
+    add({at, -1, 0}, {at, end, 0}, {at, -1, -1});
+  }
+  return surface;
+}
+
+// Where sides of bodies pass each other nearly everywhere, their sheets lie upon each other, and vertices
+// there would make more of it.
+TEST(RepairWithWeld, FewPassingSidesShareVertices) {
+  RepairOptions options;
+  options.weld = 1e-6;
+  const Surface few = combs(10), many = combs(48);
+  const RepairResult joined = repair(few.view(), options), apart = repair(many.view(), options);
+  expect_valid(joined);
+  expect_valid(apart);
+  EXPECT_EQ(joined.surface.vertices.size(), few.vertices.size() + 100);
+  EXPECT_EQ(apart.surface.vertices.size(), many.vertices.size());
+}
+
 }  // namespace
 }  // namespace holdfast
