@@ -480,7 +480,7 @@ TEST(Files, PathsThatAreNoFiles) {
   for (const char* of_cad : {"a.step", "a.STP", "a.iges", "a.brep"})
     EXPECT_NE(reason(of_cad).find("without triangles: export it as STL, or `gmsh -2 IN"), std::string::npos)
         << of_cad;
-  EXPECT_NE(reason("a.3ds").find(
+  EXPECT_NE(reason("a.fbx").find(
                 "cannot be read as a surface; Blender, MeshLab or assimp save it as .obj; the formats are"),
             std::string::npos);
   EXPECT_NE(reason("a.vtkhdf").find("; ParaView saves it as .vtu; the formats are"), std::string::npos);
