@@ -51,6 +51,7 @@ struct ReadOptions : Limits {
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.
 ///
 /// .off, .stl, .obj, .ply, .3mf, .amf, .gltf, .glb, .wrl (VRML), .dae, .ts (GOCAD), .gts, .dxf, .ac (AC3D),
+/// .3ds, .gii (GIFTI), .freesurfer (also .pial, .white and others of its endings),
 /// .mesh, .meshb (GMF), .poly, .smesh, .node (TetGen), .vtu, .vtp, .vtk, .msh (1, 2.x, 3, 4.0, 4.1), ASCII
 /// and binary where the format has both; each also compressed by gzip (.stl.gz). Lengths are in the file's
 /// own unit.
