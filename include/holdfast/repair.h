@@ -45,8 +45,9 @@ struct RepairOptions : Limits {
   double weld = 0;
   /// After that, facets that overlap at a distance of at most this get the same triangles where they overlap.
   /// Vertices stay. Where sides cross above each other, a new vertex is put on the larger facet. Meant for
-  /// faces of bodies that touch up to rounding, between which a mesh has slivers or no doubles. With a
-  /// distance that is not small compared with the details, it may take long.
+  /// faces of bodies that touch up to rounding, between which a mesh has slivers or no doubles. If the
+  /// distance is as long as features, so that this multiplies the facets and most of them cross, an eighth of
+  /// it is tried, a 64th, and none; RepairResult::message says so.
   double join = 0;
   /// Closes holes whose border has at most this many sides, by facets without parents. No value: holes stay.
   std::optional<std::size_t> fill_holes = {};
@@ -147,7 +148,7 @@ struct RepairResult {
   double max_displacement = 0;
   RepairReport report;
   ExactSurface exact;
-  std::string message;  ///< one sentence when the outcome is not done
+  std::string message;  ///< one sentence when the outcome is not done, or less was joined than asked for
 };
 
 /// Makes a valid surface: one in which `diagnose` finds nothing.

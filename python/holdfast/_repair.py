@@ -97,7 +97,8 @@ def repair(
         pass each other within this distance. A length in the surface's unit, 0 or more; 0 joins nothing.
     join
         Then give triangles that overlap within this distance, as faces of bodies that touch, the same triangles where
-        they overlap. Points stay. A length in the surface's unit, 0 or more.
+        they overlap. Points stay. A length in the surface's unit, 0 or more. If it is as long as features, an eighth of
+        it is tried, a 64th, and none.
     fill_holes
         Close holes: True for all, or the largest number of sides of a border, 3 or more; False or 0: none.
     union
