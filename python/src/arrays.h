@@ -24,6 +24,10 @@ struct SurfaceArrays {
   py::array vertices;
   py::object facets, segments, vertex_markers, facet_markers, segment_markers, names;
 };
+/// The arrays of a tuple of these seven.
+[[nodiscard]] inline SurfaceArrays surface_from(const py::tuple& arrays) {
+  return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6]};
+}
 /// Fills `arrays`, which refers to memory of `from`. Needs the interpreter lock.
 void set(Arrays& arrays, const SurfaceArrays& from);
 

@@ -135,10 +135,6 @@ Options mesh_options(const py::dict& from, const Fields& fields) {
   return options;
 }
 
-SurfaceArrays surface_from(const py::tuple& arrays) {
-  return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6]};
-}
-
 // The ids in front of and behind each facet, and where there is no region.
 py::tuple facet_regions(const std::vector<FacetRegions>& regions) {
   const auto count = static_cast<py::ssize_t>(regions.size());

@@ -28,7 +28,7 @@ namespace {
 using Seeds = std::vector<std::tuple<double, double, double, int, double>>;
 
 /// Makes a surface of the library from (arrays, regions, holes); copies them.
-Surface surface_from(const py::tuple& part) {
+Surface part_from(const py::tuple& part) {
   const auto arrays = py::cast<py::tuple>(part[0]);
   Arrays views;
   const SurfaceArrays held{
@@ -51,7 +51,7 @@ Surface surface_from(const py::tuple& part) {
 
 std::vector<Surface> surfaces_from(const py::list& parts) {
   std::vector<Surface> surfaces;
-  for (const py::handle part : parts) surfaces.push_back(surface_from(py::cast<py::tuple>(part)));
+  for (const py::handle part : parts) surfaces.push_back(part_from(py::cast<py::tuple>(part)));
   return surfaces;
 }
 

@@ -30,7 +30,7 @@ struct PlaneRun {
   std::string report;  ///< of a run that was pickled
 };
 
-using Seeds = std::vector<std::tuple<double, double, int, double>>;
+using PlaneSeeds = std::vector<std::tuple<double, double, int, double>>;
 
 template <typename Enum, typename To>
 void take_named(const py::dict& options, const char* option, To& to) {
@@ -69,7 +69,8 @@ Plane plane_from(const py::tuple& given) {
   plane.point_markers = markers_from(given[2], "point_markers");
   plane.segment_markers = markers_from(given[3], "segment_markers");
   plane.holes = py::cast<std::vector<PlanePoint>>(given[4]);
-  for (const auto& [x, y, id, area] : py::cast<Seeds>(given[5])) plane.regions.push_back({{x, y}, id, area});
+  for (const auto& [x, y, id, area] : py::cast<PlaneSeeds>(given[5]))
+    plane.regions.push_back({{x, y}, id, area});
   return plane;
 }
 
@@ -171,7 +172,7 @@ std::shared_ptr<PlaneRun> unpickled(const py::tuple& state) {
 }
 
 template <typename See>
-auto seen(See see) {
+auto seen_in_plane(See see) {
   return [see](py::object self) { return see(self.cast<const PlaneRun&>().result.mesh, self); };
 }
 
@@ -183,25 +184,26 @@ void register_plane(py::module_& module) {
       .def_property_readonly("message", [](const PlaneRun& r) { return r.result.message; })
       .def_property_readonly("defects", [](const PlaneRun& r) { return defects_of(r.result.defects); })
       .def_property_readonly("n_input_points", [](const PlaneRun& r) { return r.input_points; })
-      .def_property_readonly("points", seen([](const PlaneMesh& m, py::handle self) {
+      .def_property_readonly("points", seen_in_plane([](const PlaneMesh& m, py::handle self) {
                                return m.in_space.empty()
                                           ? view_on(reinterpret_cast<const double*>(m.points.data()),
                                                     m.points.size(), 2, self)
                                           : view_on(reinterpret_cast<const double*>(m.in_space.data()),
                                                     m.in_space.size(), 3, self);
                              }))
-      .def_property_readonly("triangles", seen([](const PlaneMesh& m, py::handle self) {
+      .def_property_readonly("triangles", seen_in_plane([](const PlaneMesh& m, py::handle self) {
                                return indices_on(m.triangles, self);
                              }))
-      .def_property_readonly(
-          "segments", seen([](const PlaneMesh& m, py::handle self) { return indices_on(m.segments, self); }))
-      .def_property_readonly("regions", seen([](const PlaneMesh& m, py::handle self) {
+      .def_property_readonly("segments", seen_in_plane([](const PlaneMesh& m, py::handle self) {
+                               return indices_on(m.segments, self);
+                             }))
+      .def_property_readonly("regions", seen_in_plane([](const PlaneMesh& m, py::handle self) {
                                return view_on(m.regions.data(), m.regions.size(), 0, self);
                              }))
-      .def_property_readonly("point_markers", seen([](const PlaneMesh& m, py::handle self) {
+      .def_property_readonly("point_markers", seen_in_plane([](const PlaneMesh& m, py::handle self) {
                                return view_on(m.point_markers.data(), m.point_markers.size(), 0, self);
                              }))
-      .def_property_readonly("segment_markers", seen([](const PlaneMesh& m, py::handle self) {
+      .def_property_readonly("segment_markers", seen_in_plane([](const PlaneMesh& m, py::handle self) {
                                return view_on(m.segment_markers.data(), m.segment_markers.size(), 0, self);
                              }))
       .def_property_readonly("remarks",

@@ -22,10 +22,6 @@
 namespace holdfast::python {
 namespace {
 
-SurfaceArrays surface_from(const py::tuple& arrays) {
-  return {py::cast<py::array>(arrays[0]), arrays[1], arrays[2], arrays[3], arrays[4], arrays[5], arrays[6]};
-}
-
 std::shared_ptr<Repair> repair_arrays(const py::tuple& surface, const py::dict& options,
                                       const py::object& progress) {
   Arrays arrays;

@@ -18,21 +18,21 @@ namespace {
 // Cosines of 10, 20 and 30 degrees less 1e-6.
 constexpr std::array<double, 3> kCosines{0.9848077560429404, 0.9396926267552859, 0.8660254124910848};
 
-struct Element {
+struct ElementStiffness {
   std::array<Vector, 4> normals{};  // twice the area vectors
   double six_volumes = 0;
 
   // Plain arithmetic is accurate enough unless the element is thin or tiny.
-  Element(const std::array<Point, 4>& p, bool is_plain) {
+  ElementStiffness(const std::array<Point, 4>& p, bool is_plain) {
     if (!is_plain) {
-      *this = Element(p);
+      *this = ElementStiffness(p);
       return;
     }
     normals = {cross(p[3] - p[1], p[2] - p[1]), cross(p[2] - p[0], p[3] - p[0]),
                cross(p[3] - p[0], p[1] - p[0]), cross(p[1] - p[0], p[2] - p[0])};
     six_volumes = std::abs(dot(p[3] - p[0], normals[3]));
   }
-  explicit Element(const std::array<Point, 4>& p)
+  explicit ElementStiffness(const std::array<Point, 4>& p)
       : normals{careful::normal(p[1], p[3], p[2]), careful::normal(p[0], p[2], p[3]),
                 careful::normal(p[0], p[3], p[1]), careful::normal(p[0], p[1], p[2])},
         six_volumes(std::abs(careful::six_volumes(p[0], p[1], p[2], p[3], normals[3]))) {}
@@ -91,7 +91,7 @@ class Measuring {
     const auto plain = plain_shape(p[0], p[1], p[2], p[3]);
     const PlainShape shape = plain ? *plain : careful_shape(p[0], p[1], p[2], p[3]).plain();
     const double cosine = *std::max_element(shape.cosines.begin(), shape.cosines.end());
-    const Element element(p, plain.has_value());
+    const ElementStiffness element(p, plain.has_value());
     all_ += element.six_volumes;
     for (std::size_t i = 0; i < kCosines.size(); ++i)
       if (cosine > kCosines[i]) {
@@ -114,7 +114,7 @@ class Measuring {
     for (std::size_t t = 0; t < traces_.size(); ++t) {
       const Tetrahedron& c = volume_.tetrahedra[t];
       if (std::none_of(c.begin(), c.end(), may_be_largest)) continue;
-      const double eigenvalue = Element(corners(c)).largest_eigenvalue();
+      const double eigenvalue = ElementStiffness(corners(c)).largest_eigenvalue();
       for (const Index v : c)
         if (may_be_largest(v)) eigenvalues[v] += eigenvalue;
     }

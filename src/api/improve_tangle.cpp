@@ -41,7 +41,7 @@ std::vector<Tet> tetrahedra_of(const Tangle& tangle) {
 }
 
 // The regions of a mesh.
-struct Regions {
+struct RegionsOfTangle {
   std::vector<int> ids;      // by region; region 0 is the outside
   std::vector<RegionId> of;  // by tetrahedron
   [[nodiscard]] std::vector<bool> kept() const {
@@ -52,8 +52,8 @@ struct Regions {
 };
 
 // `slots` is the number of the mesh's tetrahedra; those after the tangle's are outside.
-Regions regions_of(const Tangle& tangle, std::span<const Tet> tets, std::size_t slots) {
-  Regions regions{{}, std::vector<RegionId>(slots, 0)};
+RegionsOfTangle regions_of(const Tangle& tangle, std::span<const Tet> tets, std::size_t slots) {
+  RegionsOfTangle regions{{}, std::vector<RegionId>(slots, 0)};
   for (const Tet t : tets) regions.ids.push_back(tangle.region(t));
   sort_unique(regions.ids);
   regions.ids.insert(regions.ids.begin(), 0);
@@ -220,7 +220,7 @@ class AsMesh {
   const std::uint64_t seed_;
   const Numbering number_;
   TetMesh mesh_;
-  Regions regions_;
+  RegionsOfTangle regions_;
   std::vector<bool> kept_;
   std::vector<double> sizes_;
 };

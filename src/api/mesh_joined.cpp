@@ -14,10 +14,10 @@ namespace holdfast {
 namespace {
 
 /// In last bits of the largest coordinate. Vertices that are only joined do not move.
-struct Attempt {
+struct Merging {
   double join, weld;
 };
-constexpr std::array kAttempts{Attempt{0x1p3, 0}, Attempt{0x1p6, 0}, Attempt{0x1p6, 0x1p6}};
+constexpr std::array kAttempts{Merging{0x1p3, 0}, Merging{0x1p6, 0}, Merging{0x1p6, 0x1p6}};
 
 /// Whether a limit ended a call; if so, it is the outcome of the mesh, too.
 bool ends(Outcome outcome, const std::string& message, Result& result) {
@@ -36,7 +36,7 @@ bool mesh_joined(const Complex& given, const Options& options, RepairOptions& re
   Options meshing = options;
   meshing.started = options.started.value_or(begin);
   const double bit = repairing::last_bit(given.vertices);
-  for (const Attempt& attempt : kAttempts) {
+  for (const Merging& attempt : kAttempts) {
     RepairOptions joining = repairing;
     joining.exact = false;
     joining.started = repairing.started.value_or(begin);

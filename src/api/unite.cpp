@@ -35,22 +35,22 @@ std::vector<Index> components_of(const Complex& input) {
 }
 
 /// The regions on both sides of a facet of the arrangement that is part of a component's facet.
-struct Wall {
+struct RegionPair {
   Index front, back;
-  bool operator<(const Wall& other) const {
+  bool operator<(const RegionPair& other) const {
     return std::pair(front, back) < std::pair(other.front, other.back);
   }
-  bool operator==(const Wall&) const = default;
+  bool operator==(const RegionPair&) const = default;
 };
 
 /// The regions that a component keeps. `airs` are pairs of regions separated by a facet of another component.
-std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<Wall>& walls,
-                                      const std::vector<Wall>& airs) {
+std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<RegionPair>& walls,
+                                      const std::vector<RegionPair>& airs) {
   DisjointSets sets(regions);
-  for (const Wall& air : airs) sets.unite(air.front, air.back);
+  for (const RegionPair& air : airs) sets.unite(air.front, air.back);
   std::vector<std::optional<int>> winding(regions);
   std::map<Index, std::vector<std::pair<Index, int>>> steps;
-  for (const Wall& wall : walls) {
+  for (const RegionPair& wall : walls) {
     const Index front = sets.root(wall.front), back = sets.root(wall.back);
     if (front == back) continue;
     steps[front].emplace_back(back, 1);  // the inside is behind a facet that faces outwards
@@ -111,7 +111,7 @@ class ComponentWalls {
     for (auto& [component, walls] : walls_) {
       step(0.9);
       sort_unique(walls);
-      std::vector<Wall> airs;
+      std::vector<RegionPair> airs;
       for (const auto& [pair, common] : common_to_)
         if (!std::binary_search(common.begin(), common.end(), component)) airs.push_back(pair);
       const std::vector<std::uint8_t> own = material_of(division_.regions, walls, airs);
@@ -135,17 +135,17 @@ class ComponentWalls {
       own.push_back(component_[p]);
       const bool is_alike =
           turned_alike(state_.vertices, state_.facets[f], input_.vertices, input_.facets[p]);
-      walls_[component_[p]].push_back(is_alike ? Wall{front, back} : Wall{back, front});
+      walls_[component_[p]].push_back(is_alike ? RegionPair{front, back} : RegionPair{back, front});
     }
     sort_unique(own);
     if (own.empty()) {  // then it fills a hole of the component that has its corners
       own.push_back(component_at_[state_.facets[f][0]]);
       walls_[own[0]].push_back({front, back});
     }
-    if (front != back) note_common(Wall{std::min(front, back), std::max(front, back)}, own);
+    if (front != back) note_common(RegionPair{std::min(front, back), std::max(front, back)}, own);
   }
 
-  void note_common(const Wall& pair, const std::vector<Index>& components) {
+  void note_common(const RegionPair& pair, const std::vector<Index>& components) {
     const auto [at, is_new] = common_to_.try_emplace(pair, components);
     if (is_new) return;
     std::vector<Index> common;
@@ -157,11 +157,11 @@ class ComponentWalls {
   const Complex& input_;
   const repairing::State& state_;
   const DividedSpace& division_;
-  const std::vector<Index> component_;        // by facet of the input
-  std::vector<Index> component_at_;           // by vertex of the arrangement
-  std::map<Index, std::vector<Wall>> walls_;  // by component
+  const std::vector<Index> component_;              // by facet of the input
+  std::vector<Index> component_at_;                 // by vertex of the arrangement
+  std::map<Index, std::vector<RegionPair>> walls_;  // by component
   // By two regions: the components to which every facet between them belongs.
-  std::map<Wall, std::vector<Index>> common_to_;
+  std::map<RegionPair, std::vector<Index>> common_to_;
 };
 
 }  // namespace

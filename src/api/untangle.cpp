@@ -156,7 +156,7 @@ class Untangling {
   void run_steps() {
     watch_.enter(UntangleStep::validate);
     if (!validate()) return;
-    const Filler filler = [this](const Complex& complex) { return fill(complex); };
+    const CavityFiller filler = [this](const Complex& complex) { return fill(complex); };
     const UntangleStats stats = make_positive(*tangle_, options_.refill ? &filler : nullptr, watch_);
     result_.report.rounds = stats.rounds;
     result_.report.swapped = stats.swapped;

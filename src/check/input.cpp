@@ -1,14 +1,13 @@
 #include "check/input.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
+
+#include "numbers/finite.h"
 
 namespace holdfast::checking {
 
 namespace {
-
-bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 std::vector<bool> used_vertices(const Complex& surface) {
   std::vector<bool> used(surface.vertices.size(), false);
@@ -27,7 +26,7 @@ std::vector<Index> find_places(const Complex& surface, Pulse& pulse) {
   std::vector<Index> order;
   order.reserve(place.size());
   for (Index v = 0; v < place.size(); ++v)
-    if (finite(surface.vertices[v]))
+    if (is_finite(surface.vertices[v]))
       order.push_back(v);
     else if (used[v])
       place[v] = v;

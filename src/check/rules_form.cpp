@@ -6,6 +6,7 @@
 
 #include "check/examination.h"
 #include "check/findings.h"
+#include "numbers/finite.h"
 #include "text/count.h"
 
 namespace holdfast::checking {
@@ -16,10 +17,6 @@ bool same_bits(const Point& x, const Point& y) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (std::bit_cast<std::uint64_t>(x[axis]) != std::bit_cast<std::uint64_t>(y[axis])) return false;
   return true;
-}
-
-bool finite(const Point& point) {
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
 std::string vertex_words(std::string_view whose, std::size_t vertex, const Point& point) {
@@ -71,10 +68,10 @@ Rule well_formed(Examination& on) {
   if (volume.tetrahedra.size() > FaceTable::most_tetrahedra)
     findings.add([] { return std::string("the mesh has more tetrahedra than can be examined"); });
   for (std::size_t i = 0; i < volume.vertices.size(); ++i)
-    if (!finite(volume.vertices[i]))
+    if (!is_finite(volume.vertices[i]))
       findings.add([&] { return vertex_words("mesh", i, volume.vertices[i]) + " is not finite"; });
   for (const Index v : on.input.first)
-    if (const Point& point = on.surface.vertices[v]; !finite(point))
+    if (const Point& point = on.surface.vertices[v]; !is_finite(point))
       findings.add([&] { return vertex_words("input", v, point) + " is not finite"; });
   find_out_of_range<4>("tetrahedron", volume.tetrahedra, volume.vertices, findings);
   find_out_of_range<3>("input facet", on.surface.facets, on.surface.vertices, findings);

@@ -6,6 +6,7 @@
 #include "check/examination.h"
 #include "check/findings.h"
 #include "exact/jacobian.h"
+#include "numbers/finite.h"
 #include "text/count.h"
 
 namespace holdfast::checking {
@@ -137,10 +138,8 @@ Rule jacobians_positive(const Examination& on) {
     for (std::size_t i = 0; i < 4; ++i) nodes[i] = volume.vertices[volume.tetrahedra[t][i]];
     for (std::size_t e = 0; e < 6; ++e)
       nodes[4 + e] = volume.mid_nodes.points[volume.mid_nodes.tetrahedra[t][e] - volume.vertices.size()];
-    const bool finite = std::all_of(nodes.begin(), nodes.end(), [](const Point& p) {
-      return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-    });
-    const exact::Jacobian sign = finite ? exact::jacobian_of(nodes) : exact::Jacobian::unknown;
+    const bool all_finite = std::all_of(nodes.begin(), nodes.end(), is_finite);
+    const exact::Jacobian sign = all_finite ? exact::jacobian_of(nodes) : exact::Jacobian::unknown;
     if (sign == exact::Jacobian::positive) continue;
     findings.add([&] {
       return words("tetrahedron", t, volume.tetrahedra[t], volume.vertices) +

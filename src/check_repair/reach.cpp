@@ -11,15 +11,15 @@ namespace holdfast::checking {
 namespace {
 
 using exact::Dyadic;
-using Vector = std::array<Dyadic, 3>;
+using ExactVector = std::array<Dyadic, 3>;
 
-Vector difference(const Point& a, const Point& b) {
+ExactVector difference(const Point& a, const Point& b) {
   return {Dyadic(a[0]) - Dyadic(b[0]), Dyadic(a[1]) - Dyadic(b[1]), Dyadic(a[2]) - Dyadic(b[2])};
 }
 
-Dyadic dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Dyadic dot(const ExactVector& a, const ExactVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Vector cross(const Vector& a, const Vector& b) {
+ExactVector cross(const ExactVector& a, const ExactVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -124,7 +124,7 @@ bool Reach::of_segment(const Point& p, const Point& a, const Point& b) const {
   if (distance_ == 0) return on_segment(p.data(), a.data(), b.data());
   if (surely_of_triangle(p, {a, b, a})) return true;
   if (is_surely_far(p, a, b, distance_)) return false;
-  const Vector d = difference(b, a), w = difference(p, a);
+  const ExactVector d = difference(b, a), w = difference(p, a);
   const Dyadic along = dot(w, d), dd = dot(d, d);
   if (along.sign() <= 0) return dot(w, w) <= square_;
   if (along >= dd) return of_point(p, b);
@@ -136,7 +136,7 @@ bool Reach::of_triangle(const Point& p, const std::array<Point, 3>& t) const {
   if (distance_ == 0) return on_triangle(p.data(), {t[0].data(), t[1].data(), t[2].data()});
   if (surely_of_triangle(p, t)) return true;
   if (is_surely_far(p, t, distance_)) return false;
-  const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
+  const ExactVector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
   bool above = dot(n, n).sign() > 0;
   for (std::size_t i = 0; above && i < 3; ++i) {
     const Point &a = t[i], &b = t[(i + 1) % 3];
@@ -156,7 +156,7 @@ bool Reach::surely_of_triangle(const Point& p, const std::array<Point, 3>& t) co
 }
 
 int compare_distance(const Point& p, const Point& q, double distance) {
-  const Vector d = difference(p, q);
+  const ExactVector d = difference(p, q);
   const auto order = dot(d, d) <=> Dyadic(distance) * Dyadic(distance);
   return std::is_lt(order) ? -1 : std::is_gt(order) ? 1 : 0;
 }
@@ -164,7 +164,7 @@ int compare_distance(const Point& p, const Point& q, double distance) {
 /// With the area A and the sides a, b, c the radius is 2 A / (a + b + c). Lengths are rounded up, so a radius
 /// that exceeds the distance by only a few units in the last place counts as at most the distance.
 bool inscribed_at_most(const std::array<Point, 3>& t, double distance) {
-  const Vector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
+  const ExactVector n = cross(difference(t[1], t[0]), difference(t[2], t[0]));
   const double sides =
       (rough_distance(t[0], t[1]) + rough_distance(t[1], t[2]) + rough_distance(t[2], t[0])) * (1 + 0x1p-48);
   if (!std::isfinite(sides)) return false;

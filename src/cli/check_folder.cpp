@@ -13,7 +13,7 @@ namespace holdfast::cli {
 namespace {
 
 /// The findings for a part or the whole, for the listing and the report.
-struct Findings {
+struct FolderFindings {
   std::string listing;
   Json parts = Json::array(), fits = Json::array();
   bool hold = true;
@@ -41,7 +41,7 @@ std::string broken_rules(const CheckResult& result) {
 
 /// This also finds a part that is missing, foreign, or from an older division.
 void check_part(const Manifest& manifest, std::size_t k, const CheckOptions& options, FitChecker& fits,
-                Findings& findings) {
+                FolderFindings& findings) {
   const std::string file = manifest.parts[k].volume.string();
   try {
     const Surface surface = surface_of_part(manifest, k, options);
@@ -58,8 +58,8 @@ void check_part(const Manifest& manifest, std::size_t k, const CheckOptions& opt
   }
 }
 
-Findings examine(const Manifest& manifest, const CheckOptions& options) {
-  Findings findings;
+FolderFindings examine(const Manifest& manifest, const CheckOptions& options) {
+  FolderFindings findings;
   try {
     const Surface whole = whole_of(manifest, options);
     FitChecker fits(whole.view(), manifest.outside_dropped);
@@ -81,7 +81,7 @@ int check_folder(const FolderCheck& what) {
   for (const ManifestPart& part : manifest.parts) files.read_volume(manifest.path_of(part.volume), {});
   files.write("--report", what.report);
   cancel_by_flag();
-  const Findings findings =
+  const FolderFindings findings =
       work_or_write_end(what.options, [&] { return examine(manifest, what.options); }, {what.report});
   if (!what.quiet) files.list(findings.listing);
   write_json(what.report, {{"holds", findings.hold}, {"parts", findings.parts}, {"fit", findings.fits}});

@@ -26,7 +26,7 @@ std::string option_of(const Cure& cure) {
   return "";
 }
 
-std::string message_of(const Cure& cure) {
+std::string text_of(const Cure& cure) {
   switch (cure.kind) {
     case CureKind::weld:
       return fmt::format("{} within {:.3g} of another or of a side: {}",
@@ -88,7 +88,7 @@ std::string effect_of(const Cures& cures) {
 std::string cures_text(const Cures& cures) {
   if (cures.cures.empty()) return left_open_text(cures);
   std::string text;
-  for (const Cure& cure : cures.cures) text += fmt::format("cure: {}\n", message_of(cure));
+  for (const Cure& cure : cures.cures) text += fmt::format("cure: {}\n", text_of(cure));
   text += left_open_text(cures);
   if (std::all_of(cures.cures.begin(), cures.cures.end(), is_for_the_user_to_decide)) return text;
   const std::string options = options_of(cures);
@@ -102,7 +102,7 @@ Json to_json(const Cures& cures) {
     Json entry{{"kind", name(cure.kind)},
                {"option", option_of(cure)},
                {"count", cure.count},
-               {"message", message_of(cure)}};
+               {"message", text_of(cure)}};
     if (cure.kind == CureKind::weld || cure.kind == CureKind::join) {
       entry["distance"] = cure.distance;
       entry["tolerance"] = cure.tolerance;

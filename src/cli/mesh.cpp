@@ -34,8 +34,6 @@
 namespace holdfast::cli {
 namespace {
 
-constexpr std::size_t defects_shown = 20;
-
 class Stopwatch {
  public:
   [[nodiscard]] std::chrono::steady_clock::time_point start() const { return start_; }
@@ -98,9 +96,9 @@ void tell_the_end(const MeshArguments& arguments, const Options& options, const 
   if (result.outcome != Outcome::done) return;
   if (!arguments.names.empty()) tell_idle_names(arguments.names, nameable_in(result.volume));
   if (!result.defects.empty()) {
-    print_defects(result.defects, defects_shown);
-    if (result.defects.size() > defects_shown)
-      say("... and {} more in the report (--report FILE.json)\n", result.defects.size() - defects_shown);
+    print_defects(result.defects, shown_in_passing);
+    if (result.defects.size() > shown_in_passing)
+      say("... and {} more in the report (--report FILE.json)\n", result.defects.size() - shown_in_passing);
   }
   print_summary(arguments, options, result, seconds);
 }
@@ -159,14 +157,15 @@ Targets note_files(const MeshArguments& arguments, const Options& options, Files
 }
 
 /// The surface to mesh, and the smooth surface on which --curved puts mid-edge nodes.
-struct Given {
+struct GivenInput {
   MeshInput input;
   std::optional<Surface> smooth;
 };
-Given read_all(const MeshArguments& arguments, const Names& names, Options& options, ProgressView& progress) {
+GivenInput read_all(const MeshArguments& arguments, const Names& names, Options& options,
+                    ProgressView& progress) {
   progress.reading();
   const std::optional<Extent> field = read_size_field(arguments, options);
-  Given given{read_input(arguments, options), {}};
+  GivenInput given{read_input(arguments, options), {}};
   Surface& surface = given.input.surface;
   if (arguments.markers_by_angle) {
     progress.finish();
@@ -216,7 +215,7 @@ int mesh_files(const MeshArguments& arguments, Options options, FilesOfRun& file
   cancel_by_flag();
 
   ProgressView progress(how_to_show(arguments.quiet, arguments.verbose));
-  Given given = read_all(arguments, names, options, progress);
+  GivenInput given = read_all(arguments, names, options, progress);
   MeshInput& input = given.input;
   const double reading = result.report.seconds["read"] = whole.seconds();
 

@@ -12,6 +12,7 @@
 
 #include "command.h"
 #include "common_options.h"
+#include "defects.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
@@ -23,8 +24,6 @@
 
 namespace holdfast::cli {
 namespace {
-
-constexpr std::size_t defects_shown = 20;
 
 struct PlaneArguments {
   std::filesystem::path input, output, report;
@@ -159,10 +158,11 @@ int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
   }
   say("holdfast: {}: {}; nothing was written\n", arguments.input.string(), result.message);
   if (result.outcome != Outcome::invalid_input) return exit_limit;
-  for (const Defect& defect : std::span(result.defects).first(std::min(defects_shown, result.defects.size())))
+  for (const Defect& defect :
+       std::span(result.defects).first(std::min(shown_in_passing, result.defects.size())))
     say("{}: {}\n", name(defect.kind), defect.message);
-  if (result.defects.size() > defects_shown)
-    say("... and {} more; --report FILE.json lists them\n", result.defects.size() - defects_shown);
+  if (result.defects.size() > shown_in_passing)
+    say("... and {} more; --report FILE.json lists them\n", result.defects.size() - shown_in_passing);
   return exit_invalid_surface;
 }
 

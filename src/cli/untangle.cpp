@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "common_options.h"
+#include "defects.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
@@ -21,8 +22,6 @@
 
 namespace holdfast::cli {
 namespace {
-
-constexpr std::size_t defects_shown = 20;
 
 struct UntangleArguments {
   std::filesystem::path input, output, report, html;
@@ -60,9 +59,9 @@ int conclude(const UntangleArguments& arguments, const UntangleResult& result) {
       return exit_done;
     case Outcome::invalid_input:
       say("holdfast: {}; nothing was written\n", result.message);
-      print_defects(result.defects, defects_shown);
-      if (result.defects.size() > defects_shown)
-        say("... and {} more\n", result.defects.size() - defects_shown);
+      print_defects(result.defects, shown_in_passing);
+      if (result.defects.size() > shown_in_passing)
+        say("... and {} more\n", result.defects.size() - shown_in_passing);
       return exit_invalid_surface;
     case Outcome::time_limit:
     case Outcome::memory_limit:

@@ -6,7 +6,7 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kFirstScratch = 256;  // more than most boundaries need; it grows
+constexpr std::size_t kFirstBoundary = 256;  // more than most boundaries need; it grows
 
 // Euler's relation for a sphere of triangles.
 std::size_t vertices_of(std::size_t faces) { return faces / 2 + 2; }
@@ -14,7 +14,7 @@ std::size_t vertices_of(std::size_t faces) { return faces / 2 + 2; }
 }  // namespace
 
 CavityBoundary::CavityBoundary(Vertex ghost_scratch)
-    : ghost_scratch_(ghost_scratch), faces_(kFirstScratch), ring_(kFirstScratch), spokes_(kFirstScratch) {}
+    : ghost_scratch_(ghost_scratch), faces_(kFirstBoundary), ring_(kFirstBoundary), spokes_(kFirstBoundary) {}
 
 bool CavityBoundary::take(Triangulation& triangulation, std::span<const Face> cavity,
                           std::span<const Face> rim, Slots& slots, std::span<Face> table,

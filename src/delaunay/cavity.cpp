@@ -6,14 +6,14 @@
 namespace holdfast {
 namespace {
 
-constexpr std::size_t kFirstScratch = 256;  // more than most cavities need; it grows
+constexpr std::size_t kFirstCavity = 256;  // more than most cavities need; it grows
 constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
 
 std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
 }  // namespace
 
-ConflictCavity::ConflictCavity() : cells_(kFirstScratch), rim_(kFirstScratch) {}
+ConflictCavity::ConflictCavity() : cells_(kFirstCavity), rim_(kFirstCavity) {}
 
 // The processor cannot predict the outcome of a test, so both lists are always written and only their lengths
 // depend on it. Sign bits do the marking.

@@ -12,7 +12,7 @@ constexpr std::size_t kLeaf = 8;
 /// Factor: the returned size may be larger than the least by its inverse. In the middle of a ball all of its
 /// surface is about as near, and would have to be examined to find the very least.
 constexpr double kSlack = 0.9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -38,7 +38,7 @@ WantedSize::WantedSize(const Complex& complex, double gradation, std::function<d
 
 std::size_t WantedSize::build(std::size_t begin, std::size_t end) {
   const std::size_t at = boxes_.size();
-  Box box{sources_[begin].where, sources_[begin].where, kInfinity, begin, end};
+  Box box{sources_[begin].where, sources_[begin].where, kUnlimited, begin, end};
   for (std::size_t i = begin; i < end; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       box.low[k] = std::min(box.low[k], sources_[i].where[k]);
@@ -71,8 +71,8 @@ double WantedSize::bound(const Box& box, const Point& p) const {
 }
 
 double WantedSize::operator()(const Point& p) const {
-  double least = limit_ ? limit_(p) : kInfinity;
-  if (!(least > 0)) least = kInfinity;
+  double least = limit_ ? limit_(p) : kUnlimited;
+  if (!(least > 0)) least = kUnlimited;
   if (boxes_.empty()) return least;
   std::vector<std::size_t> open{0};
   while (!open.empty()) {

@@ -15,6 +15,12 @@ template <class T>
   return u[0] * v[1] - v[0] * u[1];
 }
 
+/// The cross product of numbers whose type holds their products.
+template <class T>
+[[nodiscard]] Row<T> cross(const Row<T>& u, const Row<T>& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
 /// Sign of the determinant of rows u, v.
 template <class T>
 [[nodiscard]] int sign_det2(const std::array<T, 2>& u, const std::array<T, 2>& v) {

@@ -10,20 +10,13 @@
 namespace holdfast::exact {
 namespace {
 
-std::size_t trailing_zeros(const BigInt& m) {
-  const auto* limbs = m.backend().limbs();
-  std::size_t i = 0;
-  while (limbs[i] == 0) ++i;
-  return i * 64 + static_cast<std::size_t>(std::countr_zero(limbs[i]));
-}
-
 /// The leading 128 bits of a non-zero mantissa, with the highest bit set.
-struct Leading {
+struct LeadingLimbs {
   Limb first;
   Limb second;
 };
 
-Leading leading_bits(const Dyadic& x) {
+LeadingLimbs leading_limbs(const Dyadic& x) {
   const Limb* limbs = x.limbs();
   const std::size_t size = x.bits();
   const std::size_t last = (size - 1) / 64;
@@ -49,6 +42,13 @@ std::string decimal(BigInt m) {
 }
 
 }  // namespace
+
+std::size_t trailing_zeros(const BigInt& m) {
+  const Limb* limbs = m.backend().limbs();
+  std::size_t i = 0;
+  while (limbs[i] == 0) ++i;
+  return i * 64 + static_cast<std::size_t>(std::countr_zero(limbs[i]));
+}
 
 Dyadic::Dyadic(double value) {
   FloatParts parts = float_parts(magnitude_bits(value));
@@ -83,7 +83,7 @@ double Dyadic::to_double() const {
   if (top > 1023) return sign * std::numeric_limits<double>::infinity();
   const std::int64_t precision = top >= -1022 ? 53 : top + 1075;
   if (precision < 0) return sign * 0.0;
-  std::uint64_t leading = leading_bits(*this).first;
+  std::uint64_t leading = leading_limbs(*this).first;
   const bool half = precision < size && (leading << precision) >> 63 != 0;
   leading = precision == 0 ? 0 : leading >> (64 - precision);
   // The mantissa is odd: if two or more bits are dropped, the lowest of them is set, so there is no tie.
@@ -102,7 +102,7 @@ TwoTerms Dyadic::to_two_doubles() const {
     const double high = to_double();
     return {high, (*this - Dyadic(high)).to_double()};
   }
-  const Leading leading = leading_bits(*this);
+  const LeadingLimbs leading = leading_limbs(*this);
   const double scale = mantissa_.sign() < 0 ? -power_of_two(static_cast<int>(top - 53))
                                             : power_of_two(static_cast<int>(top - 53));
   // 53 bits each, the rest cut off.

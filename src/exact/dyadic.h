@@ -26,6 +26,9 @@ using BigInt = boost::multiprecision::number<
 using Limb = boost::multiprecision::limb_type;
 static_assert(sizeof(Limb) == 8, "needs a 128-bit integer type");
 
+/// The largest k such that 2^k divides m, which is not 0.
+[[nodiscard]] std::size_t trailing_zeros(const BigInt& m);
+
 /// An exact binary fraction m * 2^e. Invariant: m is odd, or m = 0 and e = 0; so equal values have
 /// equal representations.
 class Dyadic {

@@ -35,13 +35,13 @@ class Basis {
   IntegerMatrix rows_{};
 };
 
-BigInt nearest_quotient(const BigInt& a, const BigInt& b) { return floor_of(2 * a + b, 2 * b); }
+BigInt nearest_integer_quotient(const BigInt& a, const BigInt& b) { return floor_of(2 * a + b, 2 * b); }
 
 // Reduces vectors 0 and 1.
 void reduce_two(Basis& basis) {
   for (;;) {
     if (basis.square(1) < basis.square(0)) basis.swap(0, 1);
-    const BigInt times = nearest_quotient(basis.product(0, 1), basis.square(0));
+    const BigInt times = nearest_integer_quotient(basis.product(0, 1), basis.square(0));
     basis.add(1, 0, -times);
     if (basis.square(0) <= basis.square(1)) return;
   }

@@ -23,17 +23,13 @@ RationalPoint difference(const RationalPoint& p, const RationalPoint& q) {
 
 Row<BigInt> row(const RationalPoint& p) { return {p.x, p.y, p.w}; }
 
-Row<BigInt> cross(const Row<BigInt>& u, const Row<BigInt>& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
 /// |m| = (bits + rest) 2^exponent with 0 <= rest < 1; `bits` has 128 bits, the highest one set.
-struct Leading {
+struct LeadingBits {
   Uint128 bits;
   std::int64_t exponent;
 };
 
-Leading leading(const BigInt& m) {
+LeadingBits leading_bits(const BigInt& m) {
   const Limb* limbs = m.backend().limbs();
   const std::size_t size = m.backend().size();
   const auto limb = [&](std::size_t from_above) {
@@ -51,7 +47,7 @@ Leading leading(const BigInt& m) {
 /// is v 2^k with m / (e + 1) < v < (m + 1) / e. Now q = floor(m / e) is in (2^62 - 1, 2^64), so v > m / e - 2
 /// and v < q + 2. Rounding is monotonic: if q - 2 and q + 2 round to the same double, v rounds to it, too.
 std::optional<double> nearest_by_leading_bits(const BigInt& n, const BigInt& d) {
-  const Leading a = leading(n), b = leading(d);
+  const LeadingBits a = leading_bits(n), b = leading_bits(d);
   const Uint128 quotient = (a.bits >> 1) / static_cast<std::uint64_t>(b.bits >> 64);
   const auto q = static_cast<std::uint64_t>(quotient);
   const double low = static_cast<double>(q - 2);
@@ -86,7 +82,7 @@ double nearest_quotient(const BigInt& n, const BigInt& d) {
 double rest_of_quotient(const BigInt& n, const BigInt& d, double high) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   if (n.is_zero()) return 0;
-  const Leading a = leading(n), b = leading(d);
+  const LeadingBits a = leading_bits(n), b = leading_bits(d);
   const std::int64_t exponent = a.exponent - b.exponent;
   if (exponent < -800 || exponent > 800) return kUnknown;
   const auto two_doubles = [](Uint128 bits) {  // in [1, 2]

@@ -13,13 +13,6 @@
 namespace holdfast::exact {
 namespace {
 
-std::size_t trailing_zeros(const BigInt& m) {
-  const Limb* limbs = m.backend().limbs();
-  std::size_t i = 0;
-  while (limbs[i] == 0) ++i;
-  return i * 64 + static_cast<std::size_t>(std::countr_zero(limbs[i]));
-}
-
 /// Divides by the largest power of two that divides all of them.
 void reduce(std::array<BigInt*, 4> numbers) {
   std::size_t zeros = std::numeric_limits<std::size_t>::max();
@@ -58,9 +51,6 @@ OnGrid<N> on_grid(const std::array<const double*, N>& points) {
 
 Row<BigInt> minus(const Row<BigInt>& p, const Row<BigInt>& q) {
   return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-Row<BigInt> cross(const Row<BigInt>& u, const Row<BigInt>& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 BigInt dot(const Row<BigInt>& u, const Row<BigInt>& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
 Row<BigInt> normal_of(const SpacePlane& p) { return {p.a, p.b, p.c}; }

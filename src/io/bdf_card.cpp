@@ -7,10 +7,12 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kBetweenFields = " \t";
 constexpr std::size_t kColumns = 8;  // of a field, and between tab stops
 
-bool has_blanks(std::string_view text) { return text.find_first_of(kBlanks) != std::string_view::npos; }
+bool has_blanks(std::string_view text) {
+  return text.find_first_of(kBetweenFields) != std::string_view::npos;
+}
 
 bool is_wide(std::string_view head) { return head.find('*') != std::string_view::npos; }
 
@@ -35,7 +37,7 @@ std::vector<std::string_view> between_blanks(std::string_view line) {
   // A continued line may have an empty first field.
   if (line.empty() || has_blanks(line.substr(0, 1))) parts.emplace_back();
   for (line = trimmed(line); !line.empty();) {
-    const std::size_t end = std::min(line.find_first_of(kBlanks), line.size());
+    const std::size_t end = std::min(line.find_first_of(kBetweenFields), line.size());
     parts.push_back(line.substr(0, end));
     line = trimmed(line.substr(end));
   }

@@ -11,9 +11,9 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{64, "_-."};
-constexpr std::int64_t kMost = 99999999;  // eight digits
-constexpr std::size_t kWide = 16;
+constexpr NameRule kBdfNames{64, "_-."};
+constexpr std::int64_t kBdfMost = 99999999;  // eight digits
+constexpr std::size_t kWideField = 16;
 
 struct BdfLabels {
   Labels regions, facets;
@@ -22,11 +22,11 @@ struct BdfLabels {
 /// Shells and solids have distinct property numbers.
 BdfLabels labels_of(const Volume& volume) {
   const Names& names = volume.names;
-  Labels regions = labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), names.regions, kNames,
-                             {true, static_cast<int>(kMost)});
+  Labels regions = labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), names.regions, kBdfNames,
+                             {true, static_cast<int>(kBdfMost)});
   const std::set<int> taken(regions.ids.begin(), regions.ids.end());
-  Labels facets = labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), names.facets, kNames,
-                            {true, static_cast<int>(kMost), &taken});
+  Labels facets = labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), names.facets, kBdfNames,
+                            {true, static_cast<int>(kBdfMost), &taken});
   return {std::move(regions), std::move(facets)};
 }
 
@@ -73,15 +73,15 @@ std::string nastran_real(double value) {
   };
   // The shortest exact text, if it fits.
   for (const std::string& exact : {text(), text(std::chars_format::scientific)})
-    if (exact.size() <= kWide) return exact;
+    if (exact.size() <= kWideField) return exact;
   const bool plain = std::fabs(value) >= 0.001 && std::fabs(value) < 1e14;
   for (int figures = 15; figures > 0; --figures) {
     // Without an exponent there is room for more digits.
     const std::string number =
         plain ? text(std::chars_format::fixed, figures) : text(std::chars_format::scientific, figures);
-    if (number.size() <= kWide && std::isfinite(value_of(number))) return number;
-    if (number.starts_with("0.") && number.size() == kWide + 1) return number.substr(1);
-    if (number.starts_with("-0.") && number.size() == kWide + 1) return "-" + number.substr(2);
+    if (number.size() <= kWideField && std::isfinite(value_of(number))) return number;
+    if (number.starts_with("0.") && number.size() == kWideField + 1) return number.substr(1);
+    if (number.starts_with("-0.") && number.size() == kWideField + 1) return "-" + number.substr(2);
   }
   return text(std::chars_format::scientific, 5);
 }
@@ -90,7 +90,7 @@ double nastran_rounded(double value) { return value_of(nastran_real(value)); }
 
 void write_bdf(AtomicWriter& out, const Volume& volume) {
   const std::size_t elements = volume.tetrahedra.size() + volume.facets.size();
-  if (node_count(volume) > kMost || elements > kMost)
+  if (node_count(volume) > kBdfMost || elements > kBdfMost)
     throw std::invalid_argument("a mesh of more than 99999999 nodes or elements does not fit .bdf");
   const BdfLabels labels = labels_of(volume);
   out << "$ mesh by Holdfast\n";
@@ -115,10 +115,10 @@ void write_bdf(AtomicWriter& out, const Volume& volume) {
     beat(out.watch());
     const Point& p = node(volume, i);
     field(out, "GRID*", 8);
-    field(out, std::to_string(i + 1), kWide);
-    field(out, "", kWide);
-    field(out, nastran_real(p[0]), kWide);
-    field(out, nastran_real(p[1]), kWide);
+    field(out, std::to_string(i + 1), kWideField);
+    field(out, "", kWideField);
+    field(out, nastran_real(p[0]), kWideField);
+    field(out, nastran_real(p[1]), kWideField);
     out << "\n*       " << nastran_real(p[2]) << '\n';
   }
   std::int64_t number = 0;

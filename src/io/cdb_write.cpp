@@ -6,30 +6,20 @@
 #include <set>
 
 #include "io/cdb_elements.h"
+#include "io/columns.h"
 #include "io/solver_text.h"
 #include "io/text_reader.h"
 
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{32, "_", false, false, true, false};
-constexpr std::int64_t kMost = 99999999;  // eight digits leave a blank between columns of nine
-constexpr IdRule kIds{true, static_cast<int>(kMost)};
+constexpr NameRule kCdbNames{32, "_", false, false, true, false};
+constexpr std::int64_t kCdbMost = 99999999;  // eight digits leave a blank between columns of nine
+constexpr IdRule kCdbIds{true, static_cast<int>(kCdbMost)};
 constexpr std::size_t kColumn = 9, kRealColumn = 25;
 
-void column(AtomicWriter& out, std::string_view text, std::size_t width) {
-  for (std::size_t i = text.size(); i < width; ++i) out << ' ';
-  out << text;
-}
-
-void column(AtomicWriter& out, std::uint64_t value, std::size_t width = kColumn) {
-  char digits[24];
-  const auto result = std::to_chars(digits, digits + sizeof digits, value);
-  column(out, std::string_view(digits, static_cast<std::size_t>(result.ptr - digits)), width);
-}
-
 /// 17 digits and an exponent of three, as e25.16e3 has them.
-void real_column(AtomicWriter& out, double value) {
+void cdb_real(AtomicWriter& out, double value) {
   char digits[40];
   const auto result = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16);
   std::string text(digits, result.ptr);
@@ -45,7 +35,7 @@ struct CdbLabels : SolverLabels {
   MarkedVertices marked;
 
   explicit CdbLabels(const Volume& volume)
-      : SolverLabels(volume, kNames, kIds), marked(volume, kNames, {false}) {
+      : SolverLabels(volume, kCdbNames, kCdbIds), marked(volume, kCdbNames, {false}) {
     set_apart();
   }
 
@@ -58,7 +48,7 @@ struct CdbLabels : SolverLabels {
         const std::string wanted = name;
         for (int copy = 2; taken.contains(lower(name)); ++copy) {
           const std::string tail = "_" + std::to_string(copy);
-          name = wanted.substr(0, kNames.longest - tail.size()) + tail;
+          name = wanted.substr(0, kCdbNames.longest - tail.size()) + tail;
         }
         taken.insert(lower(name));
         if (name != wanted) ++labels->changed_names;
@@ -98,10 +88,10 @@ class CdbWriter {
     out_ << "NBLOCK,6,SOLID," << std::uint64_t{count} << ',' << std::uint64_t{count} << "\n(3i9,6e25.16e3)\n";
     for (std::size_t i = 0; i < count; ++i) {
       beat(out_.watch());
-      column(out_, std::uint64_t{i} + 1);
-      column(out_, std::uint64_t{0});
-      column(out_, std::uint64_t{0});
-      for (const double x : node(volume_, i)) real_column(out_, x);
+      column(out_, std::uint64_t{i} + 1, kColumn);
+      column(out_, 0, kColumn);
+      column(out_, 0, kColumn);
+      for (const double x : node(volume_, i)) cdb_real(out_, x);
       out_ << '\n';
     }
     out_ << "N,R5.3,LOC,       -1,\n";
@@ -126,10 +116,10 @@ class CdbWriter {
     beat(out_.watch());
     const std::uint64_t head[] = {
         static_cast<std::uint64_t>(material), type, 1, 1, 0, 0, 0, 0, nodes.count, 0, ++element_};
-    for (const std::uint64_t value : head) column(out_, value);
+    for (const std::uint64_t value : head) column(out_, value, kColumn);
     for (std::size_t i = 0; i < nodes.count; ++i) {
       if (i == 8) out_ << '\n';
-      column(out_, std::uint64_t{nodes.of[i]} + 1);
+      column(out_, std::uint64_t{nodes.of[i]} + 1, kColumn);
     }
     out_ << '\n';
   }
@@ -159,7 +149,7 @@ class CdbWriter {
 
 void write_cdb(AtomicWriter& out, const Volume& volume) {
   const std::size_t elements = volume.tetrahedra.size() + volume.facets.size() + volume.segments.size();
-  if (std::max(node_count(volume), elements) > static_cast<std::size_t>(kMost))
+  if (std::max(node_count(volume), elements) > static_cast<std::size_t>(kCdbMost))
     throw std::invalid_argument("a mesh of more than 99999999 nodes or elements does not fit .cdb");
   CdbWriter(out, volume).write();
 }

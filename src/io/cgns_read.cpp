@@ -20,38 +20,38 @@
 namespace holdfast::io {
 namespace {
 
-enum class Shape { none, point, line, triangle, quadrangle, tetrahedron, cell, mixed, polygons };
+enum class CgnsShape { none, point, line, triangle, quadrangle, tetrahedron, cell, mixed, polygons };
 
-struct ElementType {
-  Shape shape = Shape::none;
+struct CgnsType {
+  CgnsShape shape = CgnsShape::none;
   std::size_t nodes = 0, corners = 0;
 };
 
 /// By the number of ElementType_t. The order of nodes in TETRA_10 and TRI_6 is that of VTK.
-constexpr std::array<ElementType, 24> kTypes{{{},
-                                              {},
-                                              {Shape::point, 1, 1},
-                                              {Shape::line, 2, 2},
-                                              {Shape::line, 3, 2},
-                                              {Shape::triangle, 3, 3},
-                                              {Shape::triangle, 6, 3},
-                                              {Shape::quadrangle, 4, 4},
-                                              {Shape::quadrangle, 8, 4},
-                                              {Shape::quadrangle, 9, 4},
-                                              {Shape::tetrahedron, 4, 4},
-                                              {Shape::tetrahedron, 10, 4},
-                                              {Shape::cell, 5, 5},
-                                              {Shape::cell, 14, 5},
-                                              {Shape::cell, 6, 6},
-                                              {Shape::cell, 15, 6},
-                                              {Shape::cell, 18, 6},
-                                              {Shape::cell, 8, 8},
-                                              {Shape::cell, 20, 8},
-                                              {Shape::cell, 27, 8},
-                                              {Shape::mixed},
-                                              {Shape::cell, 13, 5},
-                                              {Shape::polygons},
-                                              {}}};
+constexpr std::array<CgnsType, 24> kCgnsTypes{{{},
+                                               {},
+                                               {CgnsShape::point, 1, 1},
+                                               {CgnsShape::line, 2, 2},
+                                               {CgnsShape::line, 3, 2},
+                                               {CgnsShape::triangle, 3, 3},
+                                               {CgnsShape::triangle, 6, 3},
+                                               {CgnsShape::quadrangle, 4, 4},
+                                               {CgnsShape::quadrangle, 8, 4},
+                                               {CgnsShape::quadrangle, 9, 4},
+                                               {CgnsShape::tetrahedron, 4, 4},
+                                               {CgnsShape::tetrahedron, 10, 4},
+                                               {CgnsShape::cell, 5, 5},
+                                               {CgnsShape::cell, 14, 5},
+                                               {CgnsShape::cell, 6, 6},
+                                               {CgnsShape::cell, 15, 6},
+                                               {CgnsShape::cell, 18, 6},
+                                               {CgnsShape::cell, 8, 8},
+                                               {CgnsShape::cell, 20, 8},
+                                               {CgnsShape::cell, 27, 8},
+                                               {CgnsShape::mixed},
+                                               {CgnsShape::cell, 13, 5},
+                                               {CgnsShape::polygons},
+                                               {}}};
 
 /// Elements of a zone with consecutive numbers.
 struct Section {
@@ -207,10 +207,10 @@ class CgnsReader {
     return static_cast<Index>(before + static_cast<std::size_t>(number - 1));
   }
 
-  static const ElementType* type_of(std::int64_t number) {
-    const bool known = number >= 0 && static_cast<std::uint64_t>(number) < kTypes.size() &&
-                       kTypes[static_cast<std::size_t>(number)].shape != Shape::none;
-    return known ? &kTypes[static_cast<std::size_t>(number)] : nullptr;
+  static const CgnsType* type_of(std::int64_t number) {
+    const bool known = number >= 0 && static_cast<std::uint64_t>(number) < kCgnsTypes.size() &&
+                       kCgnsTypes[static_cast<std::size_t>(number)].shape != CgnsShape::none;
+    return known ? &kCgnsTypes[static_cast<std::size_t>(number)] : nullptr;
   }
 
   Section read_section(const std::string& name, Hdf5File::Object node, std::size_t before,
@@ -220,14 +220,14 @@ class CgnsReader {
     if (kind.empty() || !range_node || !nodes_node) fail(name, "the section is not complete");
     const std::vector<std::int64_t> range = file_.integers(data_of(name, *range_node));
     const std::vector<std::int64_t> nodes = file_.integers(data_of(name, *nodes_node));
-    const ElementType* type = type_of(kind[0]);
+    const CgnsType* type = type_of(kind[0]);
     if (type == nullptr)
       fail(name, "elements of type " + std::to_string(kind[0]) +
                      " (polyhedra, or of higher order) are not read; split them into tetrahedra");
     if (range.size() != 2 || range[1] < range[0]) fail(name, "the range of its elements is wrong");
     Section section{name, range[0], range[1], {}};
     std::vector<std::int64_t> offsets;
-    if (type->shape == Shape::polygons) {
+    if (type->shape == CgnsShape::polygons) {
       const auto node_of = child(node, "ElementStartOffset");
       if (!node_of) fail(name, "polygons without ElementStartOffset (before CGNS 4) are not read");
       offsets = file_.integers(data_of(name, *node_of));
@@ -235,15 +235,15 @@ class CgnsReader {
     std::size_t at = 0, elements = 0;
     std::vector<Index> corners;
     TagsOfSection tags;
-    const bool is_mixed = type->shape == Shape::mixed;
+    const bool is_mixed = type->shape == CgnsShape::mixed;
     while (at < nodes.size()) {
       beat(file_.source().watch);
-      ElementType element = *type;
+      CgnsType element = *type;
       if (is_mixed) {
-        const ElementType* of = type_of(nodes[at++]);
+        const CgnsType* of = type_of(nodes[at++]);
         if (of == nullptr || of->nodes == 0) fail(name, "a mixed element of a type that is not read");
         element = *of;
-      } else if (type->shape == Shape::polygons) {
+      } else if (type->shape == CgnsShape::polygons) {
         if (elements + 1 >= offsets.size() || offsets[elements + 1] <= offsets[elements])
           fail(name, "the offsets of its polygons are wrong");
         element.nodes = element.corners = static_cast<std::size_t>(offsets[elements + 1] - offsets[elements]);
@@ -271,34 +271,34 @@ class CgnsReader {
     return *tag;
   }
 
-  void add(const std::string& section, const ElementType& type, std::span<const Index> n,
+  void add(const std::string& section, const CgnsType& type, std::span<const Index> n,
            const std::string& marker, const std::string& region, TagsOfSection& tags) {
     const auto rest = n.subspan(type.corners);
     switch (type.shape) {
-      case Shape::line:
+      case CgnsShape::line:
         if (n.size() == 3)
           return add_second_order(mesh_, Segment{n[0], n[1]}, n[2],
                                   id_of(tags.segment, segment_ids_, marker));
         return mesh_.add_segment({n[0], n[1]}, id_of(tags.segment, segment_ids_, marker));
-      case Shape::triangle:
+      case CgnsShape::triangle:
         if (n.size() == 6)
           add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, 0);
         else
           mesh_.add_facet({n[0], n[1], n[2]});
         return markers_.resize(mesh_.facets.size(), id_of(tags.facet, facet_ids_, marker));
-      case Shape::quadrangle:
-      case Shape::polygons:
+      case CgnsShape::quadrangle:
+      case CgnsShape::polygons:
         add_no_corners(mesh_, rest);
         add_polygon(mesh_, n.first(type.corners), 0,
                     [&](const std::string& reason) { fail(section, reason); });
         return markers_.resize(mesh_.facets.size(), id_of(tags.facet, facet_ids_, marker));
-      case Shape::tetrahedron: {
+      case CgnsShape::tetrahedron: {
         const Tetrahedron corners{n[0], n[1], n[2], n[3]};
         const int id = id_of(tags.region, region_ids_, region);
         if (n.size() == 10) return add_second_order(mesh_, corners, {n[4], n[5], n[6], n[7], n[8], n[9]}, id);
         return mesh_.add_tetrahedron(corners, id);
       }
-      case Shape::cell:
+      case CgnsShape::cell:
         return add_cell(mesh_, n, type.corners, id_of(tags.region, region_ids_, region));
       default:
         return;

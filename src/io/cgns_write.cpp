@@ -14,14 +14,16 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::size_t kNameBytes = 32;
-constexpr NameRule kNames{kNameBytes, "!#$%&'()*+,-:;<=>?@[]^_{|}~", true, false, false};
-constexpr IdRule kAnyId{false};
+constexpr std::size_t kCgnsNameBytes = 32;
+constexpr NameRule kCgnsNames{kCgnsNameBytes, "!#$%&'()*+,-:;<=>?@[]^_{|}~", true, false, false};
 
 class CgnsWriter {
  public:
   CgnsWriter(const Volume& volume, Watch* watch)
-      : volume_(volume), labels_(volume, kNames, kAnyId), watch_(watch), sides_(sides_of_facets(volume)) {}
+      : volume_(volume),
+        labels_(volume, kCgnsNames, kAnyId),
+        watch_(watch),
+        sides_(sides_of_facets(volume)) {}
 
   void write(AtomicWriter& out) {
     Hdf5Group root{"",
@@ -149,7 +151,7 @@ class CgnsWriter {
     if (taken_.insert(name).second) return name;
     for (int i = 2;; ++i) {
       const std::string end = "_" + std::to_string(i);
-      std::string other = name.substr(0, kNameBytes - end.size()) + end;
+      std::string other = name.substr(0, kCgnsNameBytes - end.size()) + end;
       if (taken_.insert(other).second) return other;
     }
   }
@@ -173,7 +175,7 @@ void write_cgns(AtomicWriter& out, const Volume& volume) { CgnsWriter(volume, ou
 
 std::vector<Remark> not_in_cgns(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
-  const SolverLabels labels(volume, kNames, kAnyId);
+  const SolverLabels labels(volume, kCgnsNames, kAnyId);
   for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments}) tell(*of, ".cgns", remarks);
   tell_marked_vertices(volume, ".cgns", remarks);
   return remarks;

@@ -10,15 +10,13 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
-
 /// Calls `use` with each word of a text.
 template <typename Use>
 void for_each_word(std::string_view text, Use&& use) {
   for (;;) {
-    const std::size_t begin = text.find_first_not_of(kBlanks);
+    const std::size_t begin = text.find_first_not_of(kXmlBlanks);
     if (begin == std::string_view::npos) return;
-    const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+    const std::size_t end = std::min(text.find_first_of(kXmlBlanks, begin), text.size());
     use(text.substr(begin, end - begin));
     text.remove_prefix(end);
   }

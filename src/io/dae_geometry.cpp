@@ -8,11 +8,6 @@
 namespace holdfast::io {
 namespace {
 
-Source without_polygons(Source source) {
-  source.keeps_polygons = false;
-  return source;
-}
-
 class Geometry {
  public:
   Geometry(const DaeFile& file, const Source& source, DaeCounts& counts)

@@ -10,12 +10,12 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{1000, "_"};
+constexpr NameRule kDolfinNames{1000, "_"};
 
 /// Ids from 0 on; negative ones become free numbers.
 Labels labels_from_zero(std::string_view stem, const std::vector<int>& tags, std::size_t count) {
   const bool has_negative = std::any_of(tags.begin(), tags.end(), [](int tag) { return tag < 0; });
-  return labels_of(stem, tags, count, {}, kNames, {has_negative});
+  return labels_of(stem, tags, count, {}, kDolfinNames, {has_negative});
 }
 
 struct DolfinLabels {

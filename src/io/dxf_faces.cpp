@@ -12,11 +12,6 @@ namespace {
 constexpr std::int64_t kClosedInRows = 1, kSmooth = 4, kGrid = 16, kClosedInColumns = 32, kPolyface = 64;
 constexpr std::int64_t kFrame = 16, kPosition = 64, kFaceOfVertices = 128;  // of a vertex
 
-Source without_polygons(Source source) {
-  source.keeps_polygons = false;
-  return source;
-}
-
 }  // namespace
 
 DxfFaces::DxfFaces(const Source& source) : mesh_(without_polygons(source)) {}

@@ -24,8 +24,8 @@ struct Insert {
   std::size_t place;
 };
 
-struct Block {
-  explicit Block(const Source& source) : faces(source) {}
+struct DxfBlock {
+  explicit DxfBlock(const Source& source) : faces(source) {}
   Point base{0, 0, 0};
   DxfFaces faces;
   std::vector<Insert> inserts;
@@ -66,7 +66,7 @@ class DxfReader {
       if (block_ != nullptr) block_->faces.finish(text_);
       block_ = nullptr;
     } else if (section_ == "ENTITIES" || (section_ == "BLOCKS" && block_ != nullptr)) {
-      Block& block = section_ == "ENTITIES" ? top_ : *block_;
+      DxfBlock& block = section_ == "ENTITIES" ? top_ : *block_;
       const bool is_on_paper = text_.integer(entity, 67, 0) == 1;
       if (is_on_paper) return;
       if (type == "INSERT")
@@ -127,7 +127,7 @@ class DxfReader {
     return {p[0] / length, p[1] / length, p[2] / length};
   }
 
-  void put(const Block& block, const Placement& placement, int layer, std::size_t depth) {
+  void put(const DxfBlock& block, const Placement& placement, int layer, std::size_t depth) {
     put_faces(block.faces.mesh(), placement, layer);
     for (const Insert& insert : block.inserts) {
       const auto found = blocks_.find(insert.block);
@@ -214,9 +214,9 @@ class DxfReader {
   Source source_;
   DxfText text_;
   std::string section_;
-  Block top_;
-  std::map<std::string, Block> blocks_;
-  Block* block_ = nullptr;  ///< that is being read
+  DxfBlock top_;
+  std::map<std::string, DxfBlock> blocks_;
+  DxfBlock* block_ = nullptr;  ///< that is being read
   MeshData mesh_;
   std::map<std::string, int> layers_;
   std::set<int> used_;

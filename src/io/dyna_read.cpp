@@ -17,7 +17,7 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::size_t kMostNodes = 27;  // of an element
+constexpr std::size_t kDynaMostNodes = 27;  // of an element
 
 class DynaReader {
  public:
@@ -142,7 +142,7 @@ class DynaReader {
       read_element(Kind::solid, fields, 2, has_nodes ? 12 : 2);
       for (std::size_t card = 0; !has_nodes && card < cards; ++card) {
         if (!text_.is_data()) text_.reader().fail("the element has no card of nodes");
-        add_nodes(text_.element_card(), 0, card == 2 ? kMostNodes - 20 : 10);
+        add_nodes(text_.element_card(), 0, card == 2 ? kDynaMostNodes - 20 : 10);
       }
       text_.skip_cards(more);
     }
@@ -230,7 +230,7 @@ class DynaReader {
 
   void add(const Element& element) {
     beat(mesh_.watch);
-    std::array<Index, kMostNodes> n{};
+    std::array<Index, kDynaMostNodes> n{};
     const std::span<const std::int64_t> nodes = nodes_of(element);
     for (std::size_t i = 0; i < nodes.size(); ++i) n[i] = vertex(nodes[i], element.place);
     const int id = id_of_part(element.kind, element.part);

@@ -9,11 +9,11 @@
 namespace holdfast::io {
 namespace {
 
-constexpr const char* kLineEnds = "\r\n";
+constexpr const char* kDynaLineEnds = "\r\n";
 
 /// The line that begins at a position, without its end.
 std::string_view line_at(std::string_view bytes, std::size_t begin) {
-  return bytes.substr(begin, std::min(bytes.find_first_of(kLineEnds, begin), bytes.size()) - begin);
+  return bytes.substr(begin, std::min(bytes.find_first_of(kDynaLineEnds, begin), bytes.size()) - begin);
 }
 
 std::size_t behind_line(std::string_view bytes, std::size_t begin) {
@@ -44,7 +44,7 @@ Include named_at(std::string_view bytes, std::size_t begin, std::size_t line) {
 
 bool is_include(std::string_view line) { return lower(trimmed(line)) == "*include"; }
 
-std::optional<Include> next_include(std::string_view bytes, std::size_t from) {
+std::optional<Include> next_dyna_include(std::string_view bytes, std::size_t from) {
   // More names may follow the one before.
   if (const std::size_t line = no_comment(bytes, from);
       from > 0 && line < bytes.size() && bytes[line] != '*') {
@@ -61,12 +61,12 @@ std::optional<Include> next_include(std::string_view bytes, std::size_t from) {
   return std::nullopt;
 }
 
-bool has_blanks(std::string_view text) { return text.find_first_of(" \t") != std::string_view::npos; }
+bool has_blank(std::string_view text) { return text.find_first_of(" \t") != std::string_view::npos; }
 
 }  // namespace
 
 const IncludeRule& dyna_includes() {
-  static constexpr IncludeRule kRule{next_include, "*INCLUDE without a file's name"};
+  static constexpr IncludeRule kRule{next_dyna_include, "*INCLUDE without a file's name"};
   return kRule;
 }
 
@@ -142,7 +142,7 @@ std::span<const std::string_view> DynaText::card(const DynaColumns& columns) {
     begin += width;
   }
   // A value contains no blank, so these fields are not in columns.
-  if (line_.find('\t') != std::string_view::npos || std::any_of(fields_.begin(), fields_.end(), has_blanks))
+  if (line_.find('\t') != std::string_view::npos || std::any_of(fields_.begin(), fields_.end(), has_blank))
     fields_ = words_of(trimmed(line_));
   next_line();
   return fields_;

@@ -1,8 +1,8 @@
 // Writes LS-DYNA's keyword files, .k (keyword user's manual, volume I): regions are parts, markers are sets
 // of segments, markers of vertices sets of nodes. A surface without tetrahedra is parts of shells.
 #include <algorithm>
-#include <charconv>
 
+#include "io/columns.h"
 #include "io/exact_nodes.h"
 #include "io/solver_text.h"
 #include "text/count.h"
@@ -10,32 +10,21 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{70, "_-.:+/()#=", true};
-constexpr std::int64_t kMost = 99999999;  // eight digits
-constexpr IdRule kIds{true, static_cast<int>(kMost)};
+constexpr NameRule kDynaNames{70, "_-.:+/()#=", true};
+constexpr std::int64_t kDynaMost = 99999999;  // eight digits
+constexpr IdRule kDynaIds{true, static_cast<int>(kDynaMost)};
 
 struct DynaLabels {
   Labels regions, facets;
   MarkedVertices marked;
 
   explicit DynaLabels(const Volume& volume)
-      : regions(labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), volume.names.regions, kNames,
-                          kIds)),
-        facets(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), volume.names.facets, kNames,
-                         kIds)),
-        marked(volume, kNames, kIds) {}
+      : regions(labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), volume.names.regions,
+                          kDynaNames, kDynaIds)),
+        facets(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), volume.names.facets,
+                         kDynaNames, kDynaIds)),
+        marked(volume, kDynaNames, kDynaIds) {}
 };
-
-void column(AtomicWriter& out, std::string_view text, std::size_t width) {
-  for (std::size_t i = text.size(); i < width; ++i) out << ' ';
-  out << text;
-}
-
-void column(AtomicWriter& out, std::uint64_t value, std::size_t width) {
-  char digits[24];
-  const auto result = std::to_chars(digits, digits + sizeof digits, value);
-  column(out, std::string_view(digits, static_cast<std::size_t>(result.ptr - digits)), width);
-}
 
 void write_nodes(AtomicWriter& out, const Volume& volume) {
   write_exact_nodes(out, volume, "$", rounded_for_dyna);
@@ -124,7 +113,7 @@ void write_node_sets(AtomicWriter& out, const MarkedVertices& marked) {
 
 void write_dyna(AtomicWriter& out, const Volume& volume) {
   if (std::max({node_count(volume), volume.tetrahedra.size(), volume.facets.size()}) >
-      static_cast<std::size_t>(kMost))
+      static_cast<std::size_t>(kDynaMost))
     throw std::invalid_argument("LS-DYNA's files number nodes and elements with eight digits");
   const DynaLabels labels(volume);
   const bool is_surface = volume.tetrahedra.empty();

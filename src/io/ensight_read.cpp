@@ -23,11 +23,11 @@ struct EnsightType {
   std::string_view name;
   std::size_t nodes, corners, dimension;
 };
-constexpr EnsightType kTypes[] = {{"point", 1, 1, 0},    {"bar2", 2, 2, 1},       {"bar3", 3, 2, 1},
-                                  {"tria3", 3, 3, 2},    {"tria6", 6, 3, 2},      {"quad4", 4, 4, 2},
-                                  {"quad8", 8, 4, 2},    {"tetra4", 4, 4, 3},     {"tetra10", 10, 4, 3},
-                                  {"pyramid5", 5, 5, 3}, {"pyramid13", 13, 5, 3}, {"penta6", 6, 6, 3},
-                                  {"penta15", 15, 6, 3}, {"hexa8", 8, 8, 3},      {"hexa20", 20, 8, 3}};
+constexpr EnsightType kEnsightTypes[] = {
+    {"point", 1, 1, 0},    {"bar2", 2, 2, 1},     {"bar3", 3, 2, 1},       {"tria3", 3, 3, 2},
+    {"tria6", 6, 3, 2},    {"quad4", 4, 4, 2},    {"quad8", 8, 4, 2},      {"tetra4", 4, 4, 3},
+    {"tetra10", 10, 4, 3}, {"pyramid5", 5, 5, 3}, {"pyramid13", 13, 5, 3}, {"penta6", 6, 6, 3},
+    {"penta15", 15, 6, 3}, {"hexa8", 8, 8, 3},    {"hexa20", 20, 8, 3}};
 
 /// The geometry file that a case names, of its first time step.
 std::filesystem::path model_of(const Source& source) {
@@ -141,10 +141,10 @@ class EnsightReader {
                      const std::string& description) {
     const bool is_ghost = word.starts_with("g_");
     const std::string_view name = is_ghost ? word.substr(2) : word;
-    const auto* const type = std::find_if(std::begin(kTypes), std::end(kTypes),
+    const auto* const type = std::find_if(std::begin(kEnsightTypes), std::end(kEnsightTypes),
                                           [&](const EnsightType& t) { return t.name == name; });
     const bool is_polygon = name == "nsided";
-    if (type == std::end(kTypes) && !is_polygon)
+    if (type == std::end(kEnsightTypes) && !is_polygon)
       geo_.fail("elements of the type " + in_quotes(word) + " are not read");
     const std::size_t count = geo_.count("the number of elements", is_polygon ? 1 : type->nodes);
     if (has_element_ids_) geo_.skip_integers(count);

@@ -21,11 +21,11 @@
 namespace holdfast::io {
 namespace {
 
-enum class Shape { point, line, triangle, quadrangle, tetrahedron, cell };
+enum class ExodusShape { point, line, triangle, quadrangle, tetrahedron, cell };
 
-struct Block {
+struct ElementBlock {
   std::string name;  ///< of its array of nodes
-  Shape shape = Shape::point;
+  ExodusShape shape = ExodusShape::point;
   std::size_t nodes_each = 0, corners = 0;
   std::size_t first = 0, count = 0;  ///< elements, in the numbers of the file less 1
   std::vector<Index> nodes;
@@ -33,28 +33,28 @@ struct Block {
 };
 
 /// The shape of elements that are called "TETRA", "HEX8" and the like, and their number of corners.
-std::optional<std::pair<Shape, std::size_t>> shape_of(const std::string& type, std::size_t nodes) {
+std::optional<std::pair<ExodusShape, std::size_t>> shape_of(const std::string& type, std::size_t nodes) {
   const std::string name = lower(type);
   const auto begins = [&](std::initializer_list<std::string_view> words) {
     return std::any_of(words.begin(), words.end(), [&](std::string_view w) { return name.starts_with(w); });
   };
-  std::pair<Shape, std::size_t> found;
+  std::pair<ExodusShape, std::size_t> found;
   if (begins({"tet"}))
-    found = {Shape::tetrahedron, 4};
+    found = {ExodusShape::tetrahedron, 4};
   else if (begins({"hex"}))
-    found = {Shape::cell, 8};
+    found = {ExodusShape::cell, 8};
   else if (begins({"wedge"}))
-    found = {Shape::cell, 6};
+    found = {ExodusShape::cell, 6};
   else if (begins({"pyr"}))
-    found = {Shape::cell, 5};
+    found = {ExodusShape::cell, 5};
   else if (begins({"tri"}) || (begins({"shell"}) && (nodes == 3 || nodes == 6 || nodes == 7)))
-    found = {Shape::triangle, 3};
+    found = {ExodusShape::triangle, 3};
   else if (begins({"quad", "shell"}))
-    found = {Shape::quadrangle, 4};
+    found = {ExodusShape::quadrangle, 4};
   else if (begins({"bar", "beam", "truss", "edge", "rod", "line"}))
-    found = {Shape::line, 2};
+    found = {ExodusShape::line, 2};
   else if (begins({"sphere", "circle", "point", "node", "particle"}))
-    found = {Shape::point, 1};
+    found = {ExodusShape::point, 1};
   else
     return std::nullopt;
   return nodes < found.second ? std::nullopt : std::optional(found);
@@ -158,7 +158,8 @@ class ExodusReader {
     if (!kind)
       file_.fail(array, "elements of type " + in_quotes(type) +
                             " are not read; split them into triangles or tetrahedra");
-    Block block{array, kind->first, static_cast<std::size_t>(shape[1]), kind->second, elements_, {}, {}, {}};
+    ElementBlock block{array, kind->first, static_cast<std::size_t>(shape[1]), kind->second, elements_, {},
+                       {},    {}};
     const std::vector<std::int64_t> nodes = file_.integers(array);
     block.count = nodes.size() / block.nodes_each;
     for (const std::int64_t node : nodes) {
@@ -175,53 +176,54 @@ class ExodusReader {
       add(block, std::span(block.nodes).subspan(i * block.nodes_each, block.nodes_each), tag);
     }
     block.entities.push_back(entities_so_far(block.shape));
-    if (block.shape == Shape::point) mesh_.leave_out(block.count, "point elements", "point element");
+    if (block.shape == ExodusShape::point) mesh_.leave_out(block.count, "point elements", "point element");
     blocks_.push_back(std::move(block));
   }
 
-  [[nodiscard]] Index entities_so_far(Shape shape) const {
-    return static_cast<Index>(shape == Shape::tetrahedron || shape == Shape::cell ? mesh_.tetrahedra.size()
-                              : shape == Shape::line                              ? mesh_.segments.size()
-                                                                                  : mesh_.facets.size());
+  [[nodiscard]] Index entities_so_far(ExodusShape shape) const {
+    return static_cast<Index>(shape == ExodusShape::tetrahedron || shape == ExodusShape::cell
+                                  ? mesh_.tetrahedra.size()
+                              : shape == ExodusShape::line ? mesh_.segments.size()
+                                                           : mesh_.facets.size());
   }
 
-  int tag_of_block(Shape shape, int id, const std::string& name) {
-    if (shape == Shape::point) return 0;
-    NamedIds& ids = shape == Shape::tetrahedron || shape == Shape::cell ? region_ids_
-                    : shape == Shape::line                              ? segment_ids_
-                                                                        : facet_ids_;
+  int tag_of_block(ExodusShape shape, int id, const std::string& name) {
+    if (shape == ExodusShape::point) return 0;
+    NamedIds& ids = shape == ExodusShape::tetrahedron || shape == ExodusShape::cell ? region_ids_
+                    : shape == ExodusShape::line                                    ? segment_ids_
+                                                                                    : facet_ids_;
     if (&ids == &facet_ids_ && ids_of_side_sets_.contains(id))
       return facet_ids_.id_of(name.empty() ? "block " + std::to_string(id) : name);
     ids.set(id, name);
     return ids.resolve(id);
   }
 
-  void add(const Block& block, std::span<const Index> n, int tag) {
+  void add(const ElementBlock& block, std::span<const Index> n, int tag) {
     const auto rest = n.subspan(block.corners);
     switch (block.shape) {
-      case Shape::point:
+      case ExodusShape::point:
         return;
-      case Shape::line:
+      case ExodusShape::line:
         if (n.size() == 3) return add_second_order(mesh_, Segment{n[0], n[1]}, n[2], tag);
         add_no_corners(mesh_, rest);
         return mesh_.add_segment({n[0], n[1]}, tag);
-      case Shape::triangle:
+      case ExodusShape::triangle:
         if (n.size() == 6)
           return add_second_order(mesh_, Triangle{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, tag);
         add_no_corners(mesh_, rest);
         return mesh_.add_facet({n[0], n[1], n[2]}, tag);
-      case Shape::quadrangle:
+      case ExodusShape::quadrangle:
         add_no_corners(mesh_, rest);
         return add_polygon(mesh_, n.first(4), tag,
                            [&](const std::string& reason) { file_.fail(block.name, reason); });
-      case Shape::tetrahedron: {
+      case ExodusShape::tetrahedron: {
         const Tetrahedron corners{n[0], n[1], n[2], n[3]};
         if (n.size() == 10)
           return add_second_order(mesh_, corners, {n[4], n[5], n[6], n[7], n[8], n[9]}, tag);
         add_no_corners(mesh_, rest);
         return mesh_.add_tetrahedron(corners, tag);
       }
-      case Shape::cell:
+      case ExodusShape::cell:
         return add_cell(mesh_, n, block.corners, tag);
     }
   }
@@ -251,8 +253,9 @@ class ExodusReader {
       file_.fail(array,
                  "names element " + std::to_string(element) + ", but there are " + std::to_string(elements_));
     const auto number = static_cast<std::size_t>(element - 1);
-    const auto block = std::prev(std::upper_bound(blocks_.begin(), blocks_.end(), number,
-                                                  [](std::size_t n, const Block& b) { return n < b.first; }));
+    const auto block =
+        std::prev(std::upper_bound(blocks_.begin(), blocks_.end(), number,
+                                   [](std::size_t n, const ElementBlock& b) { return n < b.first; }));
     const std::size_t i = number - block->first;
     const std::size_t of_element = sides_of(*block);
     if (side < 1 || static_cast<std::uint64_t>(side) > of_element)
@@ -261,7 +264,7 @@ class ExodusReader {
     const auto k = static_cast<std::size_t>(side - 1);
     const auto nodes = std::span(block->nodes).subspan(i * block->nodes_each, block->corners);
     switch (block->shape) {
-      case Shape::tetrahedron: {
+      case ExodusShape::tetrahedron: {
         const std::size_t opposite = static_cast<std::size_t>(
             std::find(kExodusSideOpposite.begin(), kExodusSideOpposite.end(), k + 1) -
             kExodusSideOpposite.begin());
@@ -269,7 +272,7 @@ class ExodusReader {
         const Triangle facet = outward_face(mesh_.tetrahedra[tetrahedron], opposite);
         return facets.mark(facet, set, [&] { add_side(mesh_, tetrahedron, opposite, 0); });
       }
-      case Shape::cell: {
+      case ExodusShape::cell: {
         const std::size_t of_cell = block->corners == 8   ? kExodusSidesOfHexahedron[k]
                                     : block->corners == 6 ? kExodusSidesOfPrism[k]
                                                           : kExodusSidesOfPyramid[k];
@@ -277,8 +280,8 @@ class ExodusReader {
           facets.mark(facet, set, [&] { mesh_.add_facet(facet); });
         return;
       }
-      case Shape::triangle:
-      case Shape::quadrangle:
+      case ExodusShape::triangle:
+      case ExodusShape::quadrangle:
         if (!plane_ && k < 2) {
           for (Index f = block->entities[i]; f < block->entities[i + 1]; ++f)
             facets.mark(mesh_.facets[f], set, [] {});
@@ -291,14 +294,14 @@ class ExodusReader {
     }
   }
 
-  [[nodiscard]] std::size_t sides_of(const Block& block) const {
+  [[nodiscard]] std::size_t sides_of(const ElementBlock& block) const {
     switch (block.shape) {
-      case Shape::tetrahedron:
+      case ExodusShape::tetrahedron:
         return 4;
-      case Shape::cell:
+      case ExodusShape::cell:
         return block.corners == 8 ? 6 : 5;
-      case Shape::triangle:
-      case Shape::quadrangle:
+      case ExodusShape::triangle:
+      case ExodusShape::quadrangle:
         return block.corners + (plane_ ? 0 : 2);
       default:
         return 2;
@@ -338,7 +341,7 @@ class ExodusReader {
   const NetcdfFile file_;
   MeshData mesh_;
   bool plane_ = false;  ///< the file has two dimensions
-  std::vector<Block> blocks_;
+  std::vector<ElementBlock> blocks_;
   std::size_t elements_ = 0;
   std::set<int> ids_of_side_sets_;
   std::size_t edges_ = 0;  ///< in side sets

@@ -16,17 +16,17 @@ namespace holdfast::io {
 namespace {
 
 /// Programs reserve 32 characters or as many as the file says; 255 are the most that the library can say.
-constexpr std::size_t kNameBytes = 255;
-constexpr NameRule kNames{kNameBytes, "!#$%&'()*+,-./:;<=>?@[]^_{|}~", true, true, false};
-constexpr IdRule kIds{};
+constexpr std::size_t kExodusNameBytes = 255;
+constexpr NameRule kExodusNames{kExodusNameBytes, "!#$%&'()*+,-./:;<=>?@[]^_{|}~", true, true, false};
+constexpr IdRule kExodusIds{};
 
 struct ExodusLabels : SolverLabels {
   Labels vertices;
   explicit ExodusLabels(const Volume& volume)
-      : SolverLabels(volume, kNames, kIds),
+      : SolverLabels(volume, kExodusNames, kExodusIds),
         vertices(labels_of(kVertexStem, volume.vertex_markers,
                            volume.vertex_markers.empty() ? 0 : volume.vertices.size(), volume.names.vertices,
-                           kNames, kIds)) {}
+                           kExodusNames, kExodusIds)) {}
 };
 
 class ExodusWriter {
@@ -59,7 +59,7 @@ class ExodusWriter {
   void texts(const std::string& name, const std::string& of, std::vector<std::string> rows) {
     content_.arrays.push_back(
         {name, NetcdfKind::text, {of, "len_name"}, {}, [rows = std::move(rows)](NetcdfValues& out) {
-           for (const std::string& row : rows) out.add(row, kNameBytes + 1);
+           for (const std::string& row : rows) out.add(row, kExodusNameBytes + 1);
          }});
   }
   static std::int32_t number(std::size_t value) {
@@ -78,7 +78,7 @@ class ExodusWriter {
                            {"title", std::string("mesh by Holdfast")}};
     dimension("len_string", 33);
     dimension("len_line", 81);
-    dimension("len_name", kNameBytes + 1);
+    dimension("len_name", kExodusNameBytes + 1);
     dimension("four", 4);
     dimension("time_step", 0);
     dimension("num_dim", 3);

@@ -21,26 +21,27 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::size_t kMostNodes = 27;  // of an element
+constexpr std::size_t kFebioMostNodes = 27;  // of an element
 
 struct FebShape {
   std::string_view name;
   std::size_t corners;
   std::size_t dimension;
 };
-constexpr FebShape kShapes[] = {{"tet", 4, 3}, {"hex", 8, 3},  {"penta", 6, 3}, {"pyra", 5, 3},
-                                {"tri", 3, 2}, {"quad", 4, 2}, {"line", 2, 1}};
+constexpr FebShape kFebioShapes[] = {{"tet", 4, 3}, {"hex", 8, 3},  {"penta", 6, 3}, {"pyra", 5, 3},
+                                     {"tri", 3, 2}, {"quad", 4, 2}, {"line", 2, 1}};
 
 /// Of a type such as "tet10" or "TET10G8".
 const FebShape* shape_of(const std::string& type) {
   std::string name = lower(type);
   if (name == "ut4") name = "tet4";
   if (name.starts_with("q4")) name = "quad4";  // kinds of shells
-  const auto* const found = std::find_if(std::begin(kShapes), std::end(kShapes), [&](const FebShape& shape) {
-    return name.starts_with(shape.name) && name.size() > shape.name.size() &&
-           name[shape.name.size()] >= '0' && name[shape.name.size()] <= '9';
-  });
-  return found == std::end(kShapes) ? nullptr : found;
+  const auto* const found =
+      std::find_if(std::begin(kFebioShapes), std::end(kFebioShapes), [&](const FebShape& shape) {
+        return name.starts_with(shape.name) && name.size() > shape.name.size() &&
+               name[shape.name.size()] >= '0' && name[shape.name.size()] <= '9';
+      });
+  return found == std::end(kFebioShapes) ? nullptr : found;
 }
 
 class FebReader {
@@ -180,7 +181,7 @@ class FebReader {
     const std::size_t first = nodes_of_elements_.size();
     read_integers(tag, nodes_of_elements_);
     const std::size_t count = nodes_of_elements_.size() - first;
-    if (count < shape->corners || count > kMostNodes)
+    if (count < shape->corners || count > kFebioMostNodes)
       xml_.fail(tag,
                 "an element of the type " + in_quotes(type) + " with " + std::to_string(count) + " nodes");
     const bool is_side = section_ == "Surface";

@@ -7,14 +7,13 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{128, "_-.:/+()", true};
-constexpr IdRule kAnyId{false};
+constexpr NameRule kFebioNames{128, "_-.:/+()", true};
 
 struct FebLabels : SolverLabels {
   MarkedVertices marked;
 
   explicit FebLabels(const Volume& volume)
-      : SolverLabels(volume, kNames, kAnyId), marked(volume, kNames, kAnyId) {}
+      : SolverLabels(volume, kFebioNames, kAnyId), marked(volume, kFebioNames, kAnyId) {}
 };
 
 void write_list(AtomicWriter& out, const auto& nodes) {
@@ -41,7 +40,7 @@ void write_groups(AtomicWriter& out, const Labels& labels, const std::string& ar
   }
 }
 
-void write_nodes(AtomicWriter& out, const Volume& volume) {
+void write_febio_nodes(AtomicWriter& out, const Volume& volume) {
   out << "    <Nodes name=\"mesh\">\n";
   for (std::size_t i = 0; i < node_count(volume); ++i) {
     beat(out.watch());
@@ -52,7 +51,7 @@ void write_nodes(AtomicWriter& out, const Volume& volume) {
   out << "    </Nodes>\n";
 }
 
-void write_node_sets(AtomicWriter& out, const MarkedVertices& marked) {
+void write_febio_node_sets(AtomicWriter& out, const MarkedVertices& marked) {
   for (const auto& [id, members] : marked.labels.sets()) {
     std::vector<Index> nodes;
     for (const std::size_t k : members) nodes.push_back(marked.vertices[k]);
@@ -72,7 +71,7 @@ void write_febio(AtomicWriter& out, const Volume& volume) {
     for (const auto& [id, name] : of->names)
       out << "  <!-- " << of->stem << ' ' << id << ' ' << escaped(name) << " -->\n";
   out << "  <Module type=\"solid\"/>\n  <Mesh>\n";
-  write_nodes(out, volume);
+  write_febio_nodes(out, volume);
   const auto from_one = [](std::size_t i, std::size_t) { return std::uint64_t{i} + 1; };
   const auto in_group = [](std::size_t, std::size_t k) { return std::uint64_t{k} + 1; };
   const std::string_view triangle = second ? "tri6" : "tri3";
@@ -86,7 +85,7 @@ void write_febio(AtomicWriter& out, const Volume& volume) {
     write_groups(out, labels.facets, "Surface", "", triangle, in_group, nodes_of_facet);
   write_groups(out, labels.segments, "Edge", "", second ? "line3" : "line2", in_group,
                [&](std::size_t i) { return segment_nodes(volume, i); });
-  write_node_sets(out, labels.marked);
+  write_febio_node_sets(out, labels.marked);
   out << "  </Mesh>\n  <MeshDomains>\n";
   for (const auto& [id, name] : is_surface ? labels.facets.names : labels.regions.names)
     out << (is_surface ? "    <ShellDomain name=\"" : "    <SolidDomain name=\"") << escaped(name)

@@ -38,7 +38,7 @@ class Descriptor {
 };
 
 /// Bytes read in a few milliseconds.
-constexpr std::size_t kChunk = std::size_t{4} << 20;
+constexpr std::size_t kReadAtOnce = std::size_t{4} << 20;
 
 std::unique_ptr<char[]> allocate(const std::filesystem::path& path, std::uintmax_t size) {
   try {
@@ -130,7 +130,7 @@ FileBytes::FileBytes(const std::filesystem::path& path, Watch* watch) {
   std::size_t capacity = expected ? *expected + 1 : std::size_t{1} << 16;
   bytes_ = allocate(path, capacity);
   for (;;) {
-    const std::size_t asked = std::min(capacity - size_, kChunk);
+    const std::size_t asked = std::min(capacity - size_, kReadAtOnce);
     const std::size_t got = read_some(path, file, bytes_.get() + size_, asked, !expected, watch);
     size_ += got;
     step(watch);

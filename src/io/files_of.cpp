@@ -15,7 +15,7 @@ namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
-std::string extension_of(const std::filesystem::path& path, std::string_view format) {
+std::string packed_extension_of(const std::filesystem::path& path, std::string_view format) {
   std::string extension =
       io::lower(format.empty() ? io::without_gz(path).extension().string() : std::string(format));
   if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
@@ -45,7 +45,7 @@ Paths tetgen_files(const std::filesystem::path& path) {
 }  // namespace
 
 Paths files_of_surface(const std::filesystem::path& path, std::string_view format) {
-  const std::string extension = extension_of(path, format);
+  const std::string extension = packed_extension_of(path, format);
   for (const std::string_view of_several :
        {".vtu", ".pvtu", ".pvtp", ".pvd", ".vtm", ".xdmf", ".openfoam", ".case", ""})
     if (extension == of_several) return files_of_volume(path, format);
@@ -58,7 +58,7 @@ Paths files_of_surface(const std::filesystem::path& path, std::string_view forma
 }
 
 Paths files_of_volume(const std::filesystem::path& path, std::string_view format) {
-  const std::string extension = extension_of(path, format);
+  const std::string extension = packed_extension_of(path, format);
   if (extension == ".node" || extension == ".ele" || extension == ".face") return tetgen_files(path);
   const std::filesystem::path plain = io::without_gz(path);
   if (extension == ".vtu" && io::can_have_a_file_beside(path)) return {path, io::surface_beside(plain)};
@@ -78,7 +78,7 @@ Paths files_of_volume(const std::filesystem::path& path, std::string_view format
 }
 
 Paths files_of_size_field(const std::filesystem::path& path) {
-  const std::string extension = extension_of(path, {});
+  const std::string extension = packed_extension_of(path, {});
   Paths files{path};
   const auto add = [&](std::initializer_list<const char*> extensions) {
     for (const char* other : extensions) files.push_back(io::sibling(path, other));

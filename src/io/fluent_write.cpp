@@ -13,12 +13,11 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{64, "_-."};
-constexpr IdRule kAnyId{false};
+constexpr NameRule kFluentNames{64, "_-."};
 
 /// Cell zones and face zones have different names.
 SolverLabels fluent_labels(const Volume& volume) {
-  SolverLabels labels(volume, kNames, kAnyId);
+  SolverLabels labels(volume, kFluentNames, kAnyId);
   std::set<std::string> taken;
   for (const auto& [id, name] : labels.regions.names) taken.insert(name);
   for (const auto& [id, name] : labels.facets.names) taken.insert(name);

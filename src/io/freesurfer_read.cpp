@@ -10,7 +10,7 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::string_view kTriangles = "\xFF\xFF\xFE", kQuadrangles = "\xFF\xFF\xFF",
+constexpr std::string_view kTriangleFile = "\xFF\xFF\xFE", kQuadrangleFile = "\xFF\xFF\xFF",
                            kNewQuadrangles = "\xFF\xFF\xFD";
 
 /// The position after two lines.
@@ -41,11 +41,11 @@ Index index_of(ByteReader& bytes, std::size_t size) {
 
 MeshData read_freesurfer(const Source& source) {
   ByteReader bytes(source, std::endian::big);
-  const std::string_view kind = source.bytes.substr(0, kTriangles.size());
-  if (kind == kQuadrangles || kind == kNewQuadrangles)
+  const std::string_view kind = source.bytes.substr(0, kTriangleFile.size());
+  if (kind == kQuadrangleFile || kind == kNewQuadrangles)
     bytes.fail("an old file of quadrangles; `mris_convert IN OUT` makes one of triangles");
-  if (kind != kTriangles) bytes.fail("expected the bytes FF FF FE with which FreeSurfer's surfaces begin");
-  bytes.seek(kTriangles.size());
+  if (kind != kTriangleFile) bytes.fail("expected the bytes FF FF FE with which FreeSurfer's surfaces begin");
+  bytes.seek(kTriangleFile.size());
   bytes.seek(end_of_lines(bytes, source));
   const std::uint32_t vertices = count_of(bytes, "vertices"), facets = count_of(bytes, "triangles");
   constexpr std::size_t kBytesEach = 12;

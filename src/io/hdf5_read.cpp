@@ -14,8 +14,6 @@ namespace {
 constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
 constexpr std::uint16_t kContinuation = 0x0010, kAttribute = 0x000C, kAttributeInfo = 0x0015;
 
-std::size_t round_up(std::size_t size) { return (size + 7) / 8 * 8; }
-
 }  // namespace
 
 bool is_hdf5(std::string_view bytes) { return bytes.starts_with(kSignature); }
@@ -145,7 +143,7 @@ std::optional<Hdf5File::Values> Hdf5File::attribute_of_message(std::uint64_t at,
   if (version < 1 || version > 3) fail(at, "an attribute's version of HDF5 is not read");
   const std::size_t name_size = number<std::uint16_t>(at + 2), type_size = number<std::uint16_t>(at + 4),
                     space_size = number<std::uint16_t>(at + 6);
-  const auto padded = [&](std::size_t bytes) { return version == 1 ? round_up(bytes) : bytes; };
+  const auto padded = [&](std::size_t bytes) { return version == 1 ? hdf5_padded(bytes) : bytes; };
   const std::uint64_t name_at = at + (version == 3 ? 9 : 8);
   const std::uint64_t type_at = name_at + padded(name_size), space_at = type_at + padded(type_size),
                       data_at = space_at + padded(space_size);

@@ -22,8 +22,6 @@ std::uint64_t most_bytes(const Source& source) {
   return std::max(kAlways, kMostPacked * source.bytes.size());
 }
 
-std::size_t round_up(std::size_t size) { return (size + 7) / 8 * 8; }
-
 /// Undoes HDF5's shuffle filter, which stores byte 0 of all values, then byte 1 of all, and so on.
 std::string unshuffled(const std::string& bytes, std::size_t size) {
   if (size < 2) return bytes;
@@ -124,7 +122,7 @@ std::vector<Hdf5File::Filter> Hdf5File::filters(std::uint64_t at, std::uint64_t 
     const bool named = version == 1 || filter.id >= 256;
     const std::size_t name = named ? number<std::uint16_t>(place + 2) : 0;
     const std::size_t values = number<std::uint16_t>(place + (named ? 6 : 4));
-    place += (named ? 8 : 6) + (version == 1 ? round_up(name) : name);
+    place += (named ? 8 : 6) + (version == 1 ? hdf5_padded(name) : name);
     if (values > 0) filter.parameter = number<std::uint32_t>(place);
     place += 4 * values + (version == 1 && values % 2 == 1 ? 4 : 0);
     if (place > end) fail(at, "the filters of an HDF5 array are damaged");

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "io/byte_reader.h"
+#include "io/hdf5_number.h"
 
 namespace holdfast::io {
 namespace {
@@ -33,9 +34,7 @@ class Bytes {
   std::string bytes_;
 };
 
-std::size_t round_up(std::size_t size) { return (size + 7) / 8 * 8; }
-
-Bytes padded(Bytes bytes) { return bytes.zeros(round_up(bytes.size()) - bytes.size()); }
+Bytes padded(Bytes bytes) { return bytes.zeros(hdf5_padded(bytes.size()) - bytes.size()); }
 
 std::size_t bytes_of(Hdf5Type type) {
   switch (type) {
@@ -95,7 +94,7 @@ Bytes datatype(Hdf5Type type) {
   } else {
     bytes = integer_type(static_cast<std::uint32_t>(bytes_of(type)));
   }
-  return bytes.zeros(round_up(bytes.size()) - bytes.size());
+  return bytes.zeros(hdf5_padded(bytes.size()) - bytes.size());
 }
 
 Bytes fill_value() {
@@ -107,7 +106,7 @@ Bytes fill_value() {
 Bytes layout(std::uint64_t address, std::uint64_t size) {
   Bytes bytes;  // version 3, contiguous
   bytes.put<std::uint8_t>(3).put<std::uint8_t>(1).put(size == 0 ? kUndefined : address).put(size);
-  return bytes.zeros(round_up(bytes.size()) - bytes.size());
+  return bytes.zeros(hdf5_padded(bytes.size()) - bytes.size());
 }
 
 /// An object header of version 1 with its messages.
@@ -174,7 +173,7 @@ class Metadata {
  private:
   std::uint64_t add(const Bytes& block) {
     const std::uint64_t at = bytes_.size();
-    bytes_.text(block.all()).zeros(round_up(bytes_.size()) - bytes_.size());
+    bytes_.text(block.all()).zeros(hdf5_padded(bytes_.size()) - bytes_.size());
     return at;
   }
 
@@ -185,7 +184,7 @@ class Metadata {
                       {0x0005, fill_value()},
                       {0x0008, layout(values_end_, size)}};
     add_attributes(messages, array.attributes);
-    values_end_ += round_up(static_cast<std::size_t>(size));
+    values_end_ += hdf5_padded(static_cast<std::size_t>(size));
     arrays_.push_back(&array);
     return add(header(messages));
   }
@@ -233,7 +232,7 @@ void put_values(AtomicWriter& out, const Hdf5Array& array) {
       out << turned;
     }
   }
-  out << std::string(round_up(count * size) - count * size, '\0');
+  out << std::string(hdf5_padded(count * size) - count * size, '\0');
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ std::size_t end_of_keyword(std::string_view bytes, std::size_t begin) {
 }
 
 /// The next inclusion from a position on. Only asterisks are examined, of which a mesh has few.
-std::optional<Include> next_include(std::string_view bytes, std::size_t from) {
+std::optional<Include> next_inp_include(std::string_view bytes, std::size_t from) {
   for (std::size_t star = bytes.find('*', from); star != std::string_view::npos;
        star = bytes.find('*', star + 1)) {
     const std::size_t before = star == 0 ? std::string_view::npos : bytes.find_last_of(kLineEnds, star - 1);
@@ -64,7 +64,7 @@ std::optional<Include> next_include(std::string_view bytes, std::size_t from) {
 }  // namespace
 
 const IncludeRule& inp_includes() {
-  static constexpr IncludeRule kRule{next_include, "*INCLUDE without INPUT"};
+  static constexpr IncludeRule kRule{next_inp_include, "*INCLUDE without INPUT"};
   return kRule;
 }
 

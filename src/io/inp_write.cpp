@@ -13,8 +13,7 @@ namespace holdfast::io {
 namespace {
 
 /// CalculiX reads 80 characters and ignores case.
-constexpr NameRule kNames{80, "_-", false, false, true, false};
-constexpr IdRule kAnyId{false};
+constexpr NameRule kInpNames{80, "_-", false, false, true, false};
 
 /// The numbers of the sides S1 to S4 of C3D4, by the opposite corner.
 constexpr std::array<int, 4> kSides{3, 4, 2, 1};
@@ -26,12 +25,13 @@ struct InpData {
 
   explicit InpData(const Volume& of)
       : volume(of),
-        regions(labels_of(kRegionStem, of.regions, of.tetrahedra.size(), of.names.regions, kNames, kAnyId)),
-        facets(labels_of(kFacetStem, of.facet_markers, of.facets.size(), of.names.facets, kNames, kAnyId)),
-        segments(labels_of(kSegmentStem, of.segment_markers, of.segments.size(), of.names.segments, kNames,
+        regions(
+            labels_of(kRegionStem, of.regions, of.tetrahedra.size(), of.names.regions, kInpNames, kAnyId)),
+        facets(labels_of(kFacetStem, of.facet_markers, of.facets.size(), of.names.facets, kInpNames, kAnyId)),
+        segments(labels_of(kSegmentStem, of.segment_markers, of.segments.size(), of.names.segments, kInpNames,
                            kAnyId)),
         vertices(labels_of(kVertexStem, of.vertex_markers, of.vertex_markers.size(), of.names.vertices,
-                           kNames, kAnyId)) {}
+                           kInpNames, kAnyId)) {}
 };
 
 /// Writes numbers in lines of eight.

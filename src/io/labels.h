@@ -35,6 +35,7 @@ struct IdRule {
   int most = 2147483647;
   const std::set<int>* taken = nullptr;  ///< ids taken by entities of another kind
 };
+inline constexpr IdRule kAnyId{false};
 
 /// The ids of the entities of one kind, as written to the file.
 struct Labels {

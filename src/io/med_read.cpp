@@ -24,22 +24,22 @@ struct Family {
 };
 
 /// How the elements of a type are read.
-struct ElementType {
+struct MedType {
   std::string_view name;
   std::size_t nodes;
   enum class Kind { tetrahedron, cell, triangle, quadrangle, segment } kind;
 };
-constexpr ElementType kTypes[] = {
-    {"TE4", 4, ElementType::Kind::tetrahedron}, {"T10", 10, ElementType::Kind::tetrahedron},
-    {"TR3", 3, ElementType::Kind::triangle},    {"TR6", 6, ElementType::Kind::triangle},
-    {"TR7", 7, ElementType::Kind::triangle},    {"QU4", 4, ElementType::Kind::quadrangle},
-    {"QU8", 8, ElementType::Kind::quadrangle},  {"QU9", 9, ElementType::Kind::quadrangle},
-    {"SE2", 2, ElementType::Kind::segment},     {"SE3", 3, ElementType::Kind::segment},
-    {"SE4", 4, ElementType::Kind::segment},     {"HE8", 8, ElementType::Kind::cell},
-    {"H20", 20, ElementType::Kind::cell},       {"H27", 27, ElementType::Kind::cell},
-    {"PE6", 6, ElementType::Kind::cell},        {"P15", 15, ElementType::Kind::cell},
-    {"P18", 18, ElementType::Kind::cell},       {"PY5", 5, ElementType::Kind::cell},
-    {"P13", 13, ElementType::Kind::cell},
+constexpr MedType kMedTypes[] = {
+    {"TE4", 4, MedType::Kind::tetrahedron}, {"T10", 10, MedType::Kind::tetrahedron},
+    {"TR3", 3, MedType::Kind::triangle},    {"TR6", 6, MedType::Kind::triangle},
+    {"TR7", 7, MedType::Kind::triangle},    {"QU4", 4, MedType::Kind::quadrangle},
+    {"QU8", 8, MedType::Kind::quadrangle},  {"QU9", 9, MedType::Kind::quadrangle},
+    {"SE2", 2, MedType::Kind::segment},     {"SE3", 3, MedType::Kind::segment},
+    {"SE4", 4, MedType::Kind::segment},     {"HE8", 8, MedType::Kind::cell},
+    {"H20", 20, MedType::Kind::cell},       {"H27", 27, MedType::Kind::cell},
+    {"PE6", 6, MedType::Kind::cell},        {"P15", 15, MedType::Kind::cell},
+    {"P18", 18, MedType::Kind::cell},       {"PY5", 5, MedType::Kind::cell},
+    {"P13", 13, MedType::Kind::cell},
 };
 
 class MedReader {
@@ -164,23 +164,23 @@ class MedReader {
     const auto all = file_.links(elements);
     for (const auto& link : all) {
       const std::string& name = link.first;
-      const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
-                                     [&](const ElementType& t) { return t.name == name; });
-      if (type != std::end(kTypes)) continue;
+      const auto type = std::find_if(std::begin(kMedTypes), std::end(kMedTypes),
+                                     [&](const MedType& t) { return t.name == name; });
+      if (type != std::end(kMedTypes)) continue;
       if (name != "PO1")
         fail("elements of type " + in_quotes(name) +
              " are not read; split them into triangles or tetrahedra");
       mesh_.leave_out(1, "point elements", "list of point elements");
     }
-    for (const ElementType& type : kTypes)  // in this order, not that of the names
+    for (const MedType& type : kMedTypes)  // in this order, not that of the names
       if (const auto found = all.find(std::string(type.name)); found != all.end())
         read_type(type, found->second);
     mesh_.leave_out(overlaps_, "groups of families that are in smaller groups",
                     "group of a family that is in a smaller group");
   }
 
-  void read_type(const ElementType& type, Hdf5File::Object object) {
-    using Kind = ElementType::Kind;
+  void read_type(const MedType& type, Hdf5File::Object object) {
+    using Kind = MedType::Kind;
     const std::string name(type.name);
     const auto arrays = file_.links(object);
     const auto found = arrays.find("NOD");
@@ -208,8 +208,8 @@ class MedReader {
     }
   }
 
-  void add(const ElementType& type, const std::vector<Index>& n, int id, std::size_t i) {
-    using Kind = ElementType::Kind;
+  void add(const MedType& type, const std::vector<Index>& n, int id, std::size_t i) {
+    using Kind = MedType::Kind;
     switch (type.kind) {
       case Kind::tetrahedron: {
         const auto at = [&](std::size_t k) { return n[kMedTetrahedron[k]]; };

@@ -10,20 +10,19 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::size_t kNameBytes = 80;
-constexpr NameRule kNames{kNameBytes, "!#$%&'()*+,-./:;<=>?@[]^_{|}~", true, true, false};
-constexpr IdRule kAnyId{false};
+constexpr std::size_t kMedNameBytes = 80;
+constexpr NameRule kMedNames{kMedNameBytes, "!#$%&'()*+,-./:;<=>?@[]^_{|}~", true, true, false};
 
 struct MedLabels {
   Labels regions, facets, segments, vertices;
   explicit MedLabels(const Volume& volume) {
-    const SolverLabels labels(volume, kNames, kAnyId);
+    const SolverLabels labels(volume, kMedNames, kAnyId);
     regions = labels.regions;
     facets = labels.facets;
     segments = labels.segments;
     vertices = labels_of(kVertexStem, volume.vertex_markers,
                          volume.vertex_markers.empty() ? 0 : volume.vertices.size(), volume.names.vertices,
-                         kNames, kAnyId);
+                         kMedNames, kAnyId);
   }
 };
 
@@ -32,7 +31,7 @@ struct Families {
   std::map<int, std::int32_t> number_of;  ///< by id
 };
 
-struct Element {
+struct MedElement {
   std::string type;
   std::size_t nodes_each = 0;
   std::vector<std::int64_t> nodes;  ///< the first node of all elements, then the second of all, ...
@@ -82,7 +81,7 @@ class MedWriter {
   /// A family named by its id, like ids without a name, so that it is found again; its group has the name.
   Hdf5Group family(std::string_view stem, int id, std::int32_t number, const std::string& name) {
     std::string& text = group_names_.emplace_back(name);
-    text.resize(kNameBytes, '\0');
+    text.resize(kMedNameBytes, '\0');
     return {std::string(stem) + '_' + std::to_string(id),
             {{"NUM", number}},
             {},
@@ -98,7 +97,7 @@ class MedWriter {
   void add_elements(std::string_view first, std::string_view second, std::size_t count, const Labels& labels,
                     const Families& families, NodesOf&& nodes_of) {
     if (count == 0) return;
-    Element& element = elements_.emplace_back();
+    MedElement& element = elements_.emplace_back();
     element.type = is_second_order(volume_) ? second : first;
     for (std::size_t i = 0; i < count; ++i) {
       beat(watch_);
@@ -143,7 +142,7 @@ class MedWriter {
     if (!node_families_.empty())
       nodes.arrays.push_back({"FAM", Hdf5Type::int32, points, 1, node_families_.data(), counted(points)});
     Hdf5Group elements{"MAI", {{"CGT", 1}}};
-    for (const Element& e : elements_) {
+    for (const MedElement& e : elements_) {
       const std::size_t count = e.families.size();
       elements.groups.push_back({e.type,
                                  profile({{"CGT", 1}, {"CGS", 1}}),
@@ -177,7 +176,7 @@ class MedWriter {
   Watch* const watch_;
   Families regions_, facets_, segments_, vertices_;
   std::list<std::string> group_names_;  ///< a list, because its addresses are stable
-  std::vector<Element> elements_;
+  std::vector<MedElement> elements_;
   std::vector<double> coordinates_;
   std::vector<std::int32_t> node_families_;
 };

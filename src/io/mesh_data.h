@@ -36,6 +36,11 @@ struct Source {
   std::span<const Origin> origins = {};  ///< for a text joined from several files: ascending, from its begin
 };
 
+[[nodiscard]] inline Source without_polygons(Source source) {
+  source.keeps_polygons = false;
+  return source;
+}
+
 /// Tags of entities of one kind that stay empty as long as every tag is 0.
 ///
 /// Most files carry no markers, and "no markers" and "all markers are 0" mean the same everywhere.

@@ -9,9 +9,10 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{255, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
-constexpr IdRule kIds{};
-constexpr int kSegment = 1, kTriangle = 2, kTetrahedron = 4, kPyramid = 7;  // 3: squares, 5: cubes, 6: prisms
+constexpr NameRule kMfemNames{255, "!#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
+constexpr IdRule kMfemIds{};
+constexpr int kMfemSegment = 1, kMfemTriangle = 2, kMfemTetrahedron = 4,
+              kMfemPyramid = 7;  // 3: squares, 5: cubes, 6: prisms
 
 class MfemReader {
  public:
@@ -58,7 +59,7 @@ class MfemReader {
     for (std::size_t i = 0; i < count; ++i) {
       Entity entity{text_.tag("an attribute"), text_.integer("a geometry type"), {}, 0};
       entity.position = text_.last();
-      if (entity.type < kSegment || entity.type > kPyramid)
+      if (entity.type < kMfemSegment || entity.type > kMfemPyramid)
         text_.fail("elements of geometry " + std::to_string(entity.type) + " are not read");
       for (std::size_t k = 0; k < corners_of(entity.type); ++k)
         entity.corners[k] = text_.integer("a vertex index");
@@ -68,7 +69,7 @@ class MfemReader {
 
   static std::size_t corners_of(std::int64_t type) {
     constexpr std::size_t kCorners[] = {2, 3, 4, 4, 8, 6, 5};
-    return kCorners[static_cast<std::size_t>(type - kSegment)];
+    return kCorners[static_cast<std::size_t>(type - kMfemSegment)];
   }
 
   /// Reads lines with a quoted name, a number of attributes, and these. A set of one attribute names it.
@@ -112,11 +113,11 @@ class MfemReader {
                                              std::to_string(mesh_.vertices.size()));
         n[k] = static_cast<Index>(entity.corners[k]);
       }
-      if (entity.type == kTetrahedron)
+      if (entity.type == kMfemTetrahedron)
         mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]}, regions_.resolve(entity.attribute));
-      else if (entity.type > kTetrahedron)
+      else if (entity.type > kMfemTetrahedron)
         add_cell(mesh_, std::span(n).first(corners), corners, regions_.resolve(entity.attribute));
-      else if (entity.type == kSegment)
+      else if (entity.type == kMfemSegment)
         mesh_.add_segment({n[0], n[1]}, entity.attribute);
       else
         add_polygon(mesh_, std::span(n).first(corners), facets_.resolve(entity.attribute),
@@ -154,13 +155,13 @@ void write_sets(AtomicWriter& out, std::string_view section, const Labels& label
 MeshData read_mfem(const Source& source) { return MfemReader(source).read(); }
 
 void write_mfem(AtomicWriter& out, const Volume& volume) {
-  const SolverLabels labels(volume, kNames, kIds);
+  const SolverLabels labels(volume, kMfemNames, kMfemIds);
   const bool named = !volume.names.regions.empty() || !volume.names.facets.empty() ||
                      !labels.regions.renumbered.empty() || !labels.facets.renumbered.empty();
   out << (named ? "MFEM mesh v1.3\n" : "MFEM mesh v1.0\n") << "\ndimension\n3\n";
-  write_entities(out, "elements", kTetrahedron, labels.regions, volume.tetrahedra);
+  write_entities(out, "elements", kMfemTetrahedron, labels.regions, volume.tetrahedra);
   if (named) write_sets(out, "attribute_sets", labels.regions);
-  write_entities(out, "boundary", kTriangle, labels.facets, volume.facets);
+  write_entities(out, "boundary", kMfemTriangle, labels.facets, volume.facets);
   if (named) write_sets(out, "bdr_attribute_sets", labels.facets);
   out << "\nvertices\n" << std::uint64_t{volume.vertices.size()} << "\n3\n";
   for (const Point& p : volume.vertices) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
@@ -169,7 +170,7 @@ void write_mfem(AtomicWriter& out, const Volume& volume) {
 
 std::vector<Remark> not_in_mfem(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
-  const SolverLabels labels(volume, kNames, kIds);
+  const SolverLabels labels(volume, kMfemNames, kMfemIds);
   tell(labels.regions, "MFEM", remarks);
   tell(labels.facets, "MFEM", remarks);
   tell_left_out(volume, "MFEM's meshes", false, false, remarks);

@@ -30,7 +30,7 @@ struct EntityKey {
 };
 
 /// An element of an entity, with nodes of the piece.
-struct Element {
+struct PieceElement {
   EntityKey entity;
   std::array<Index, 4> nodes;
   std::size_t count;
@@ -38,11 +38,11 @@ struct Element {
 };
 
 /// What piece k adds to the file, by entity. No earlier piece adds the same.
-std::vector<Element> elements_of(const MeshPiece& piece, Index k) {
-  std::vector<Element> elements;
+std::vector<PieceElement> elements_of(const MeshPiece& piece, Index k) {
+  std::vector<PieceElement> elements;
   const Volume& volume = piece.volume;
   const auto add = [&](const EntityKey& entity, const auto& nodes, Index tetrahedron = no_entity) {
-    Element element{entity, {}, nodes.size(), tetrahedron};
+    PieceElement element{entity, {}, nodes.size(), tetrahedron};
     std::copy(nodes.begin(), nodes.end(), element.nodes.begin());
     elements.push_back(element);
   };
@@ -71,7 +71,7 @@ std::vector<Element> elements_of(const MeshPiece& piece, Index k) {
   for (Index t = 0; t < piece.own_tetrahedra; ++t)
     add({3, false, tag_of(volume.regions, t), k}, volume.tetrahedra[t], t);
   std::stable_sort(elements.begin(), elements.end(),
-                   [](const Element& a, const Element& b) { return a.entity < b.entity; });
+                   [](const PieceElement& a, const PieceElement& b) { return a.entity < b.entity; });
   return elements;
 }
 
@@ -82,7 +82,7 @@ class Survey {
     for (std::size_t k = 0; k < parts; ++k) {
       const MeshPiece piece = load(k);
       watch.step();
-      for (const Element& element : elements_of(piece, static_cast<Index>(k))) {
+      for (const PieceElement& element : elements_of(piece, static_cast<Index>(k))) {
         ++counts[element.entity];
         ++elements;
         if (element.entity.dimension == 3) ++tetrahedra;
@@ -264,9 +264,9 @@ void write_elements(MshOut& to, const Survey& survey, std::size_t parts, const P
   std::uint64_t next = 0;
   for (std::size_t k = 0; k < parts; ++k) {
     const MeshPiece piece = load(k);
-    const std::vector<Element> elements = elements_of(piece, static_cast<Index>(k));
+    const std::vector<PieceElement> elements = elements_of(piece, static_cast<Index>(k));
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      const Element& element = elements[i];
+      const PieceElement& element = elements[i];
       beat(to.out().watch());
       if (i == 0 || elements[i - 1].entity != element.entity) {
         const int d = element.entity.dimension;

@@ -8,7 +8,7 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::uint32_t kDimensions = 10, kArrays = 11, kAttributes = 12, kFloat = 5;
+constexpr std::uint32_t kDimensions = 10, kArrays = 11, kAttributes = 12, kFloatType = 5;
 
 std::uint64_t padded(std::uint64_t size) { return (size + 3) / 4 * 4; }
 
@@ -40,7 +40,7 @@ void append_attributes(std::string& bytes, const std::vector<NetcdfAttribute>& a
       append(bytes, std::uint32_t{1});
       append(bytes, *number);
     } else {
-      append(bytes, kFloat);
+      append(bytes, kFloatType);
       append(bytes, std::uint32_t{1});
       append(bytes, std::get<float>(value));
     }

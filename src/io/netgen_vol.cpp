@@ -12,8 +12,8 @@ namespace holdfast::io {
 namespace {
 
 /// Names are words. Netgen allocates arrays as long as the largest id.
-constexpr NameRule kNames{255, "!$%&'()*+,-./:;<=>?@[]^_`{|}~", false, true, false, true};
-constexpr IdRule kIds{true, 1000000};
+constexpr NameRule kVolNames{255, "!$%&'()*+,-./:;<=>?@[]^_`{|}~", false, true, false, true};
+constexpr IdRule kVolIds{true, 1000000};
 
 class VolReader {
  public:
@@ -200,7 +200,7 @@ void write_names(AtomicWriter& out, std::string_view section, const Labels& labe
 MeshData read_vol(const Source& source) { return VolReader(source).read(); }
 
 void write_vol(AtomicWriter& out, const Volume& volume) {
-  const SolverLabels labels(volume, kNames, kIds);
+  const SolverLabels labels(volume, kVolNames, kVolIds);
   const std::vector<SidesOfFacet> sides = sides_of_facets(volume);
   const auto domain = [&](const std::optional<SideOfTet>& side) {
     return side ? labels.regions.ids[side->tetrahedron] : 0;
@@ -243,7 +243,7 @@ void write_vol(AtomicWriter& out, const Volume& volume) {
 
 std::vector<Remark> not_in_vol(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
-  const SolverLabels labels(volume, kNames, kIds);
+  const SolverLabels labels(volume, kVolNames, kVolIds);
   for (const Labels* of : {&labels.regions, &labels.facets, &labels.segments}) tell(*of, ".vol", remarks);
   tell_left_out(volume, ".vol", true, true, remarks);
   return remarks;

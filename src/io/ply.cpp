@@ -27,18 +27,18 @@ struct Property {
   std::optional<PlyType> count_type;  ///< of a list
 };
 
-struct Element {
+struct PlyElement {
   std::string name;
   std::size_t position = 0;  ///< in the header
   std::size_t count = 0;
   std::vector<Property> properties;
 };
 
-struct Header {
+struct PlyHeader {
   NamedIds facets{kFacetStem}, vertices{kVertexStem}, segments{kSegmentStem};  ///< named by comments
   bool binary = false;
   std::endian order = std::endian::little;
-  std::vector<Element> elements;
+  std::vector<PlyElement> elements;
   std::vector<std::string> others;  ///< words of lines unknown to PLY
 };
 
@@ -67,7 +67,7 @@ PlyType read_type(TextReader& text) {
 
 bool is_real(PlyType type) { return type == PlyType::float32 || type == PlyType::float64; }
 
-void read_format(TextReader& text, Header& header) {
+void read_format(TextReader& text, PlyHeader& header) {
   const std::string_view format = text.word_on_line();
   header.binary = format != "ascii";
   if (format == "binary_big_endian")
@@ -91,12 +91,12 @@ Property read_property(TextReader& text) {
 }
 
 /// Reads the header and leaves `text` at the first byte of the data.
-Header read_header(TextReader& text) {
+PlyHeader read_ply_header(TextReader& text) {
   if (text.word("ply") != "ply") text.fail("not a PLY file: it does not start with 'ply'");
   // The first line's ending shows whether data starts after "end_header\r" or "end_header\r
   // ".
   const bool crlf = text.remaining().starts_with("\r\n");
-  Header header;
+  PlyHeader header;
   bool has_format = false;
   for (;;) {
     const std::string_view keyword = text.word("'end_header'");
@@ -105,7 +105,7 @@ Header read_header(TextReader& text) {
       read_format(text, header);
       has_format = true;
     } else if (keyword == "element") {
-      Element element;
+      PlyElement element;
       element.position = text.last();
       element.name = text.word_on_line();
       element.count = text.count("the number of elements", 1);
@@ -210,11 +210,11 @@ class BinaryValues {
 template <typename Values>
 class PlyReader {
  public:
-  PlyReader(const TextReader& text, const Header& header, Values values)
+  PlyReader(const TextReader& text, const PlyHeader& header, Values values)
       : text_(text), header_(header), values_(values), mesh_(text.source()) {}
 
   MeshData read() {
-    for (const Element& element : header_.elements) {
+    for (const PlyElement& element : header_.elements) {
       if (element.count == 0 || element.properties.empty()) continue;
       values_.require(element.count, least_size(element), "elements");
       if (element.name != "vertex") require_vertices_before(element);
@@ -245,7 +245,7 @@ class PlyReader {
                     "line of the header that PLY does not have (" + words + ")");
     constexpr std::string_view kRead[] = {"x",       "y",       "z",     "vertex_indices", "vertex_index",
                                           "vertex1", "vertex2", "marker"};
-    for (const Element& element : header_.elements) {
+    for (const PlyElement& element : header_.elements) {
       if (element.count == 0) continue;
       const bool is_read = element.name == "vertex" || element.name == "face" || element.name == "edge" ||
                            element.name == "tristrips";
@@ -263,18 +263,18 @@ class PlyReader {
   }
 
   /// Elements that name vertices can only be checked after them.
-  void require_vertices_before(const Element& element) {
+  void require_vertices_before(const PlyElement& element) {
     const bool names_vertices =
         element.name == "face" || element.name == "edge" || element.name == "tristrips";
     if (!names_vertices || !mesh_.vertices.empty()) return;
-    for (const Element& other : header_.elements)
+    for (const PlyElement& other : header_.elements)
       if (other.name == "vertex" && other.position > element.position)
         text_.fail_at(element.position,
                       "the element " + in_quotes(element.name) +
                           " comes before the vertices, which is not supported: save vertices first");
   }
 
-  static std::size_t least_size(const Element& element) {
+  static std::size_t least_size(const PlyElement& element) {
     std::size_t size = 0;
     for (const Property& property : element.properties)
       size += size_of(property.count_type.value_or(property.type));
@@ -282,7 +282,7 @@ class PlyReader {
   }
 
   /// The position of the property with one of two names; throws if there is none.
-  std::size_t find(const Element& element, std::string_view name, std::string_view other = {}) {
+  std::size_t find(const PlyElement& element, std::string_view name, std::string_view other = {}) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const Property& property = element.properties[i];
       if (property.name == name || (!other.empty() && property.name == other)) return i;
@@ -292,7 +292,7 @@ class PlyReader {
   }
 
   /// The position of the property "marker", if it exists and is an integer.
-  static std::size_t find_marker(const Element& element) {
+  static std::size_t find_marker(const PlyElement& element) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const Property& property = element.properties[i];
       if (property.name == "marker" && !property.count_type && !is_real(property.type)) return i;
@@ -318,7 +318,7 @@ class PlyReader {
     for (std::size_t i = 0; i < length; ++i) static_cast<void>(values_.real(property.type));
   }
 
-  void skip(const Element& element) {
+  void skip(const PlyElement& element) {
     for (std::size_t i = 0; i < element.count; ++i)
       for (const Property& property : element.properties) skip(property);
   }
@@ -332,7 +332,7 @@ class PlyReader {
     return static_cast<Index>(value);
   }
 
-  void read_vertices(const Element& element) {
+  void read_vertices(const PlyElement& element) {
     const std::array<std::size_t, 3> axes{find(element, "x"), find(element, "y"), find(element, "z")};
     for (const std::size_t axis : axes)
       if (element.properties[axis].count_type) text_.fail_at(element.position, "a coordinate that is a list");
@@ -356,7 +356,7 @@ class PlyReader {
     }
   }
 
-  void read_faces(const Element& element) {
+  void read_faces(const PlyElement& element) {
     const std::size_t list = find(element, "vertex_indices", "vertex_index");
     if (!element.properties[list].count_type)
       text_.fail_at(element.position, "vertex indices that are no list");
@@ -381,7 +381,7 @@ class PlyReader {
   }
 
   /// Each list contains strips, which end with negative numbers.
-  void read_strips(const Element& element) {
+  void read_strips(const PlyElement& element) {
     const std::size_t list = find(element, "vertex_indices", "vertex_index");
     if (!element.properties[list].count_type)
       text_.fail_at(element.position, "vertex indices that are no list");
@@ -406,7 +406,7 @@ class PlyReader {
     }
   }
 
-  void read_edges(const Element& element) {
+  void read_edges(const PlyElement& element) {
     const std::array<std::size_t, 2> ends{find(element, "vertex1"), find(element, "vertex2")};
     const std::size_t mark = find_marker(element);
     for (std::size_t i = 0; i < element.count; ++i) {
@@ -427,7 +427,7 @@ class PlyReader {
   }
 
   const TextReader& text_;  ///< for errors in the header
-  const Header& header_;
+  const PlyHeader& header_;
   Values values_;
   MeshData mesh_;
 };
@@ -436,7 +436,7 @@ class PlyReader {
 
 MeshData read_ply(const Source& source) {
   TextReader text(source, '\0');
-  const Header header = read_header(text);
+  const PlyHeader header = read_ply_header(text);
   if (!header.binary) return PlyReader(text, header, TextValues(text)).read();
   return PlyReader(text, header, BinaryValues(ByteReader(source, header.order, text.position()))).read();
 }

@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Reader = MeshData (*)(const Source&);
+using DataSetReader = MeshData (*)(const Source&);
 
 /// The formats of parts.
 struct PartFormat {
   std::string_view ending;
-  Reader read;
+  DataSetReader read;
 };
 constexpr PartFormat kParts[] = {{".vtu", read_vtu},   {".vtp", read_vtu}, {".pvtu", read_pvtu},
                                  {".pvtp", read_pvtu}, {".vtm", read_vtm}, {".vtk", read_vtk}};
@@ -31,7 +31,7 @@ constexpr PartFormat kParts[] = {{".vtu", read_vtu},   {".vtp", read_vtu}, {".pv
 struct NamedPart {
   XmlTag tag;
   fs::path path;
-  Reader read;
+  DataSetReader read;
 };
 
 struct FirstStep {
@@ -59,7 +59,7 @@ FirstStep first_step(const Source& source, XmlReader& xml) {
     if (!seen.insert(path.lexically_normal()).second)
       xml.fail(*tag, "the file " + in_quotes(name) + " is named twice");
     const std::string ending = lower(without_gz(path).extension().string());
-    Reader read = nullptr;
+    DataSetReader read = nullptr;
     for (const PartFormat& format : kParts)
       if (format.ending == ending) read = format.read;
     if (read == nullptr)

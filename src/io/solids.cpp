@@ -9,14 +9,14 @@ namespace holdfast::io {
 namespace {
 
 // Nested copies can grow exponentially with the length of a file.
-constexpr std::size_t kMostCopies = 1 << 20, kHarmless = std::size_t{1} << 22, kMostTimes = 1000;
+constexpr std::size_t kMostCopies = 1 << 20, kHarmlessWords = std::size_t{1} << 22, kMostTimes = 1000;
 
 }  // namespace
 
 void Solids::refuse_a_trap(const Solid& solid) const {
   const std::size_t size =
       mesh_.vertices.size() + solid.vertices.size() + mesh_.facets.size() + solid.facets.size();
-  if (copies_ == kMostCopies || (size > kHarmless && size / kMostTimes > bytes_))
+  if (copies_ == kMostCopies || (size > kHarmlessWords && size / kMostTimes > bytes_))
     throw FileError(source_.path, "",
                     "holds more than " + std::to_string(copies_) + " copies of its objects, " +
                         std::to_string(mesh_.facets.size()) +

@@ -9,10 +9,9 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{128, "_-."};
-constexpr IdRule kAnyId{false};
-constexpr int kLine = 3, kTriangle = 5, kQuadrangle = 9, kTetrahedron = 10, kHexahedron = 12, kPrism = 13,
-              kPyramid = 14;
+constexpr NameRule kSu2Names{128, "_-."};
+constexpr int kSu2Line = 3, kSu2Triangle = 5, kSu2Quadrangle = 9, kSu2Tetrahedron = 10, kSu2Hexahedron = 12,
+              kSu2Prism = 13, kSu2Pyramid = 14;
 
 class Su2Reader {
  public:
@@ -119,11 +118,11 @@ class Su2Reader {
                    std::to_string(points_));
       n[i] = static_cast<Index>(v);
     }
-    if (type == kTetrahedron)
+    if (type == kSu2Tetrahedron)
       mesh_.add_tetrahedron({n[0], n[1], n[2], n[3]});
-    else if (type == kLine)
+    else if (type == kSu2Line)
       mesh_.add_segment({n[0], n[1]}, marker);
-    else if (type == kTriangle)
+    else if (type == kSu2Triangle)
       mesh_.add_facet({n[0], n[1], n[2]}, marker);
     else
       cuts_.push_back({n, corners, marker, text_.last()});
@@ -131,18 +130,18 @@ class Su2Reader {
 
   static std::size_t corners_of(std::int64_t type) {
     switch (type) {
-      case kLine:
+      case kSu2Line:
         return 2;
-      case kTriangle:
+      case kSu2Triangle:
         return 3;
-      case kQuadrangle:
-      case kTetrahedron:
+      case kSu2Quadrangle:
+      case kSu2Tetrahedron:
         return 4;
-      case kPyramid:
+      case kSu2Pyramid:
         return 5;
-      case kPrism:
+      case kSu2Prism:
         return 6;
-      case kHexahedron:
+      case kSu2Hexahedron:
         return 8;
       default:
         return 0;
@@ -191,7 +190,7 @@ std::vector<bool> on_boundary(const Volume& volume) {
 MeshData read_su2(const Source& source) { return Su2Reader(source).read(); }
 
 void write_su2(AtomicWriter& out, const Volume& volume) {
-  const SolverLabels labels(volume, kNames, kAnyId);
+  const SolverLabels labels(volume, kSu2Names, kAnyId);
   const std::vector<bool> boundary = on_boundary(volume);
   std::map<int, std::vector<std::size_t>> markers;
   for (std::size_t f = 0; f < boundary.size(); ++f)
@@ -203,7 +202,7 @@ void write_su2(AtomicWriter& out, const Volume& volume) {
   out << "NDIME= 3\nNELEM= " << std::uint64_t{volume.tetrahedra.size()} << '\n';
   for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i) {
     beat(out.watch());
-    out << kTetrahedron;
+    out << kSu2Tetrahedron;
     for (const Index v : volume.tetrahedra[i]) out << ' ' << v;
     out << ' ' << std::uint64_t{i} << '\n';
   }
@@ -217,14 +216,14 @@ void write_su2(AtomicWriter& out, const Volume& volume) {
     out << "MARKER_TAG= " << labels.facets.names.at(id) << "\nMARKER_ELEMS= " << std::uint64_t{members.size()}
         << '\n';
     for (const std::size_t f : members)
-      out << kTriangle << ' ' << volume.facets[f][0] << ' ' << volume.facets[f][1] << ' '
+      out << kSu2Triangle << ' ' << volume.facets[f][0] << ' ' << volume.facets[f][1] << ' '
           << volume.facets[f][2] << '\n';
   }
 }
 
 std::vector<Remark> not_in_su2(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
-  const SolverLabels labels(volume, kNames, kAnyId);
+  const SolverLabels labels(volume, kSu2Names, kAnyId);
   tell(labels.facets, ".su2", remarks);
   const auto say = [&](std::size_t count, const std::string& what) {
     if (count > 0) remarks.push_back({RemarkKind::not_held, count, std::to_string(count) + what});

@@ -18,7 +18,7 @@ namespace holdfast {
 namespace io {
 namespace {
 
-std::string extension_of(const std::filesystem::path& path, std::string_view format) {
+std::string surface_extension_of(const std::filesystem::path& path, std::string_view format) {
   std::string extension = lower(format.empty() ? path.extension().string() : std::string(format));
   if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
   return extension;
@@ -41,10 +41,9 @@ void write_off(AtomicWriter& out, const Surface& surface) {
 }
 
 /// A name of an STL solid or OBJ group extends to the line's end; groups are words.
-constexpr NameRule kSolids{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
+constexpr NameRule kSolidNames{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
 constexpr NameRule kGroups{1000, "!$%&'()*+,-./:;<=>?@[]^_`{|}~", false, true, false, true};
 constexpr NameRule kComments{1000, "!\"#$%&'()*+,-./:;<=>?@[]^_`{|}~", true, true, false, true};
-constexpr IdRule kAnyId{false};
 
 Labels facet_labels(const Surface& surface, const NameRule& rule) {
   return labels_of(kFacetStem, surface.facet_markers, surface.facets.size(), surface.names.facets, rule,
@@ -105,7 +104,7 @@ Point normal_of(const Surface& surface, const Triangle& t) {
 }
 
 void write_stl(AtomicWriter& out, const Surface& surface) {
-  const Labels labels = facet_labels(surface, kSolids);
+  const Labels labels = facet_labels(surface, kSolidNames);
   std::vector<int> solids(labels.ids);
   if (solids.empty()) solids.push_back(0);
   std::sort(solids.begin(), solids.end());
@@ -176,7 +175,7 @@ void write_gts(AtomicWriter& out, const Surface& surface) {
   }
 }
 
-struct Format {
+struct SurfaceFormat {
   std::string_view extension;
   void (*write)(AtomicWriter&, const Surface&);  ///< null: as a volume without tetrahedra
   bool markers, segments, seeds;                 ///< whether it stores them
@@ -184,22 +183,23 @@ struct Format {
   const NameRule* names = nullptr;               ///< of markers; null: it stores none, or the writer decides
 };
 
-constexpr std::array kFormats{Format{".off", write_off, false, true, false, false, false},
-                              Format{".obj", write_obj, true, true, false, false, false, &kGroups},
-                              Format{".stl", write_stl, true, false, false, false, false, &kSolids},
-                              Format{".ply", write_ply, true, false, false, true, false, &kComments},
-                              Format{".gts", write_gts, true, true, false, false, false},
-                              Format{".poly", write_poly, true, true, true, true, true},
-                              Format{".mesh", nullptr, true, true, false, true, true},
-                              Format{".meshb", nullptr, true, true, false, true, true},
-                              Format{".msh", nullptr, true, true, false, true, true},
-                              Format{".vtk", nullptr, true, true, false, true, true},
-                              Format{".vtu", nullptr, true, true, false, true, true}};
+constexpr std::array kSurfaceFormats{
+    SurfaceFormat{".off", write_off, false, true, false, false, false},
+    SurfaceFormat{".obj", write_obj, true, true, false, false, false, &kGroups},
+    SurfaceFormat{".stl", write_stl, true, false, false, false, false, &kSolidNames},
+    SurfaceFormat{".ply", write_ply, true, false, false, true, false, &kComments},
+    SurfaceFormat{".gts", write_gts, true, true, false, false, false},
+    SurfaceFormat{".poly", write_poly, true, true, true, true, true},
+    SurfaceFormat{".mesh", nullptr, true, true, false, true, true},
+    SurfaceFormat{".meshb", nullptr, true, true, false, true, true},
+    SurfaceFormat{".msh", nullptr, true, true, false, true, true},
+    SurfaceFormat{".vtk", nullptr, true, true, false, true, true},
+    SurfaceFormat{".vtu", nullptr, true, true, false, true, true}};
 
-const Format& format_of(const std::filesystem::path& path, std::string_view name) {
-  const std::string extension = extension_of(path, name);
+const SurfaceFormat& format_of(const std::filesystem::path& path, std::string_view name) {
+  const std::string extension = surface_extension_of(path, name);
   std::string known;
-  for (const Format& format : kFormats) {
+  for (const SurfaceFormat& format : kSurfaceFormats) {
     if (format.extension == extension) return format;
     known += (known.empty() ? "" : ", ") + std::string(format.extension);
   }
@@ -240,7 +240,7 @@ std::size_t marked(const std::vector<int>& markers) {
 
 void write_surface(const std::filesystem::path& path, const Surface& surface, const WriteOptions& options) {
   const FloatEnvironment environment;
-  const io::Format& format = io::format_of(path, options.format);
+  const io::SurfaceFormat& format = io::format_of(path, options.format);
   io::require_consistent(surface);
   if (format.write == nullptr) return write_volume(path, io::as_volume(surface), options);
   io::Watch watch(options, options.progress);
@@ -251,7 +251,7 @@ void write_surface(const std::filesystem::path& path, const Surface& surface, co
 
 std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& surface,
                              const WriteOptions& options) {
-  const io::Format& format = io::format_of(path, options.format);
+  const io::SurfaceFormat& format = io::format_of(path, options.format);
   std::vector<Remark> remarks;
   const auto say = [&](std::size_t count, const char* one, const char* many) {
     if (count == 0) return;
@@ -277,8 +277,8 @@ std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& s
 
 std::vector<std::string> surface_formats() {
   std::vector<std::string> extensions;
-  extensions.reserve(std::size(io::kFormats));
-  for (const io::Format& format : io::kFormats) extensions.emplace_back(format.extension);
+  extensions.reserve(std::size(io::kSurfaceFormats));
+  for (const io::SurfaceFormat& format : io::kSurfaceFormats) extensions.emplace_back(format.extension);
   return extensions;
 }
 

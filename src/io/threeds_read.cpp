@@ -28,7 +28,7 @@ enum Chunk : std::uint16_t {
   kMaterialName = 0xA000,
   kObject = 0x4000,
   kMesh = 0x4100,
-  kVertices = 0x4110,
+  kVertexList = 0x4110,
   kFaces = 0x4120,
   kFaceMaterial = 0x4130,
 };
@@ -110,7 +110,7 @@ class ThreeDsReader {
     std::optional<std::size_t> faces_end;
     std::size_t faces = 0;
     read_chunks(end, [&](std::uint16_t id, std::size_t at) {
-      if (id == kVertices) read_vertices(solid, at);
+      if (id == kVertexList) read_vertices(solid, at);
       if (id == kFaces) {
         faces = bytes_.position();
         faces_end = at;

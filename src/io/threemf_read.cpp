@@ -29,7 +29,7 @@ struct Object {
   bool is_model = true;  ///< not a support or another object that is not manufactured (section 4.1)
 };
 
-using Key = std::pair<std::string, std::uint64_t>;  ///< part and number
+using ResourceKey = std::pair<std::string, std::uint64_t>;  ///< part and number
 
 /// A tag or attribute name without its namespace prefix.
 std::string_view local(std::string_view name) {
@@ -41,7 +41,7 @@ struct LeftOut {
   std::string_view element, many, one;
 };
 constexpr std::string_view kPaint = "paint";
-constexpr LeftOut kLeftOut[] = {
+constexpr LeftOut kLeftOutParts[] = {
     {"ball", "balls of a lattice", "ball of a lattice"},
     {"beam", "beams of a lattice", "beam of a lattice"},
     {"color", "colours", "colour"},
@@ -55,7 +55,7 @@ constexpr LeftOut kLeftOut[] = {
 /// The contents of one file of the package.
 class Model {
  public:
-  Model(const Source& source, std::string part, std::map<Key, Object>& objects)
+  Model(const Source& source, std::string part, std::map<ResourceKey, Object>& objects)
       : source_(source), xml_(source), part_(std::move(part)), objects_(objects) {}
 
   void read() {
@@ -96,9 +96,9 @@ class Model {
   }
 
   void leave_out(std::string_view element) {
-    const auto found = std::find_if(std::begin(kLeftOut), std::end(kLeftOut),
+    const auto found = std::find_if(std::begin(kLeftOutParts), std::end(kLeftOutParts),
                                     [&](const LeftOut& l) { return l.element == element; });
-    if (found != std::end(kLeftOut)) ++left_out_[found->element];
+    if (found != std::end(kLeftOutParts)) ++left_out_[found->element];
   }
 
   void begin_object(const XmlTag& tag) {
@@ -174,7 +174,7 @@ class Model {
   Source source_;
   XmlReader xml_;
   std::string part_;
-  std::map<Key, Object>& objects_;
+  std::map<ResourceKey, Object>& objects_;
   Object* object_ = nullptr;
   std::map<std::string, std::vector<std::string>> material_groups_;
   std::vector<std::string>* materials_ = nullptr;
@@ -195,7 +195,7 @@ class Package {
     if (items.empty()) items = what_no_object_uses();
     for (const Use& item : items) put(item, {}, "");
     MeshData mesh = solids_.take();
-    for (const LeftOut& l : kLeftOut) mesh.leave_out(left_out_[l.element], l.many, l.one);
+    for (const LeftOut& l : kLeftOutParts) mesh.leave_out(left_out_[l.element], l.many, l.one);
     mesh.leave_out(no_models_, "supports and other objects that are no part of the model",
                    "support or other object that is no part of the model");
     mesh.leave_out(no_material_, "volumes that modify the print", "volume that modifies the print");
@@ -314,7 +314,7 @@ class Package {
     const std::string what = "object " + std::to_string(use.object) + " of " + in_quotes(use.part);
     if (found == objects_.end())
       throw FileError(source_.path, "", "the package has no " + what + ", which it names");
-    const Key key = found->first;
+    const ResourceKey key = found->first;
     if (std::find(open_.begin(), open_.end(), key) != open_.end())
       throw FileError(source_.path, "", what + " is a component of itself");
     if (open_.size() > kDeepest || ++uses_ > kMostUses)
@@ -335,13 +335,13 @@ class Package {
   static constexpr std::size_t kDeepest = 64, kMostUses = std::size_t{1} << 21;
   Source source_;
   ZipArchive archive_;
-  std::map<Key, Object> objects_;
+  std::map<ResourceKey, Object> objects_;
   std::map<std::string_view, std::size_t> left_out_;
   std::size_t no_material_ = 0;  ///< volumes without material
   std::size_t no_models_ = 0;    ///< copies of objects that are no models
   std::string root_;             ///< the part with the build
   Solids solids_;
-  std::vector<Key> open_;  ///< objects whose components are being placed
+  std::vector<ResourceKey> open_;  ///< objects whose components are being placed
   std::size_t uses_ = 0;
 };
 

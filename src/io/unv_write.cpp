@@ -5,6 +5,7 @@
 #include <charconv>
 #include <set>
 
+#include "io/columns.h"
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/mesh_sets.h"
@@ -12,28 +13,19 @@
 namespace holdfast::io {
 namespace {
 
-constexpr NameRule kNames{40, "_-."};
+constexpr NameRule kUnvNames{40, "_-."};
 /// Nine digits leave a blank in a column of ten, for readers that split at blanks.
-constexpr IdRule kIds{true, 999999999};
-
-/// Writes a number right-aligned in a column of ten characters.
-void column(AtomicWriter& out, std::int64_t value) {
-  char digits[24];
-  const auto result = std::to_chars(digits, digits + sizeof digits, value);
-  const auto size = static_cast<std::size_t>(result.ptr - digits);
-  for (std::size_t i = size; i < 10; ++i) out << ' ';
-  out << std::string_view(digits, size);
-}
+constexpr IdRule kUnvIds{true, 999999999};
+constexpr std::size_t kUnvColumn = 10, kUnvRealColumn = 25;
 
 /// Writes 17 digits in a column of 25, with Fortran's double-precision exponent.
-void real_column(AtomicWriter& out, double value) {
+void unv_real(AtomicWriter& out, double value) {
   char digits[40];
   const auto result = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16);
   const auto size = static_cast<std::size_t>(result.ptr - digits);
   for (char& c : digits)
     if (c == 'e') c = 'D';
-  for (std::size_t i = size; i < 25; ++i) out << ' ';
-  out << std::string_view(digits, size);
+  column(out, std::string_view(digits, size), kUnvRealColumn);
 }
 
 void begin(AtomicWriter& out, int dataset) {
@@ -63,11 +55,11 @@ class UnvWriter {
       : out_(out),
         volume_(volume),
         regions_(labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), volume.names.regions,
-                           kNames, kIds)),
-        facets_(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), volume.names.facets, kNames,
-                          kIds)),
+                           kUnvNames, kUnvIds)),
+        facets_(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), volume.names.facets,
+                          kUnvNames, kUnvIds)),
         segments_(labels_of(kSegmentStem, volume.segment_markers, volume.segments.size(),
-                            volume.names.segments, kNames, kIds)) {}
+                            volume.names.segments, kUnvNames, kUnvIds)) {}
 
   void write() {
     write_nodes();
@@ -82,9 +74,9 @@ class UnvWriter {
       beat(out_.watch());
       for (const std::int64_t value :
            {static_cast<std::int64_t>(i) + 1, std::int64_t{1}, std::int64_t{1}, std::int64_t{11}})
-        column(out_, value);
+        column(out_, value, kUnvColumn);
       out_ << '\n';
-      for (const double x : node(volume_, i)) real_column(out_, x);
+      for (const double x : node(volume_, i)) unv_real(out_, x);
       out_ << '\n';
     }
     end(out_);
@@ -96,7 +88,7 @@ class UnvWriter {
     beat(out_.watch());
     for (const std::int64_t value : {++number_, std::int64_t{type}, std::int64_t{id}, std::int64_t{0},
                                      std::int64_t{id}, static_cast<std::int64_t>(nodes.count)})
-      column(out_, value);
+      column(out_, value, kUnvColumn);
     out_ << '\n';
     if (type == 11 || type == 24)
       out_ << "         0         1         1\n";  // a beam's orientation and ends
@@ -104,7 +96,7 @@ class UnvWriter {
     for (const Index v : nodes) {
       if (on_line == 8) out_ << '\n';
       if (on_line == 8) on_line = 0;
-      column(out_, std::int64_t{v} + 1);
+      column(out_, std::int64_t{v} + 1, kUnvColumn);
       ++on_line;
     }
     out_ << '\n';
@@ -143,13 +135,13 @@ class UnvWriter {
         std::vector<std::size_t> members = all;
         if (labels == &facets_) std::erase_if(members, is_inside);
         if (members.empty()) continue;
-        column(out_, number_of_group(numbers, id));
-        for (int i = 0; i < 6; ++i) column(out_, 0);
-        column(out_, static_cast<std::int64_t>(members.size()));
+        column(out_, number_of_group(numbers, id), kUnvColumn);
+        for (int i = 0; i < 6; ++i) column(out_, 0, kUnvColumn);
+        column(out_, static_cast<std::int64_t>(members.size()), kUnvColumn);
         out_ << '\n' << labels->names.at(id) << '\n';
         for (std::size_t i = 0; i < members.size(); ++i) {
           for (const std::size_t value : {std::size_t{8}, first + members[i], std::size_t{0}, std::size_t{0}})
-            column(out_, static_cast<std::int64_t>(value));
+            column(out_, static_cast<std::int64_t>(value), kUnvColumn);
           if (i % 2 == 1 || i + 1 == members.size()) out_ << '\n';
         }
       }
@@ -171,11 +163,12 @@ void write_unv(AtomicWriter& out, const Volume& volume) { UnvWriter(out, volume)
 std::vector<Remark> not_in_unv(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
   const Names& names = volume.names;
-  tell(labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), names.regions, kNames, kIds), ".unv",
-       remarks);
-  tell(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), names.facets, kNames, kIds), ".unv",
-       remarks);
-  tell(labels_of(kSegmentStem, volume.segment_markers, volume.segments.size(), names.segments, kNames, kIds),
+  tell(labels_of(kRegionStem, volume.regions, volume.tetrahedra.size(), names.regions, kUnvNames, kUnvIds),
+       ".unv", remarks);
+  tell(labels_of(kFacetStem, volume.facet_markers, volume.facets.size(), names.facets, kUnvNames, kUnvIds),
+       ".unv", remarks);
+  tell(labels_of(kSegmentStem, volume.segment_markers, volume.segments.size(), names.segments, kUnvNames,
+                 kUnvIds),
        ".unv", remarks);
   tell_marked_vertices(volume, ".unv", remarks);
   return remarks;

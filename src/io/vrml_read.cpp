@@ -25,30 +25,30 @@ constexpr std::string_view kShapes[] = {"AsciiText",      "Box",       "Cone",  
                                         "IndexedLineSet", "PointSet"};
 
 /// VRML97 nodes that stand in place of shapes but are none.
-constexpr std::string_view kOthers[] = {"AudioClip",
-                                        "Background",
-                                        "ColorInterpolator",
-                                        "CoordinateInterpolator",
-                                        "CylinderSensor",
-                                        "DirectionalLight",
-                                        "Fog",
-                                        "NavigationInfo",
-                                        "NormalInterpolator",
-                                        "OrientationInterpolator",
-                                        "PlaneSensor",
-                                        "PointLight",
-                                        "PositionInterpolator",
-                                        "ProximitySensor",
-                                        "ScalarInterpolator",
-                                        "Script",
-                                        "Sound",
-                                        "SphereSensor",
-                                        "SpotLight",
-                                        "TimeSensor",
-                                        "TouchSensor",
-                                        "Viewpoint",
-                                        "VisibilitySensor",
-                                        "WorldInfo"};
+constexpr std::string_view kOtherNodes[] = {"AudioClip",
+                                            "Background",
+                                            "ColorInterpolator",
+                                            "CoordinateInterpolator",
+                                            "CylinderSensor",
+                                            "DirectionalLight",
+                                            "Fog",
+                                            "NavigationInfo",
+                                            "NormalInterpolator",
+                                            "OrientationInterpolator",
+                                            "PlaneSensor",
+                                            "PointLight",
+                                            "PositionInterpolator",
+                                            "ProximitySensor",
+                                            "ScalarInterpolator",
+                                            "Script",
+                                            "Sound",
+                                            "SphereSensor",
+                                            "SpotLight",
+                                            "TimeSensor",
+                                            "TouchSensor",
+                                            "Viewpoint",
+                                            "VisibilitySensor",
+                                            "WorldInfo"};
 
 /// The state that nodes of version 1.0 pass on to those that follow.
 struct State {
@@ -187,7 +187,7 @@ class VrmlReader {
     return std::find(std::begin(kShapes), std::end(kShapes), type) != std::end(kShapes);
   }
   static bool is_known(std::string_view type) {
-    return std::find(std::begin(kOthers), std::end(kOthers), type) != std::end(kOthers);
+    return std::find(std::begin(kOtherNodes), std::end(kOtherNodes), type) != std::end(kOtherNodes);
   }
 
   [[nodiscard]] std::vector<double> numbers(const VrmlNode& node, std::string_view field,

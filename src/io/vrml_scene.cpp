@@ -10,7 +10,7 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::size_t kDeepest = 256;
+constexpr std::size_t kDeepestNode = 256;
 
 bool is_sign(char c) {
   return c == '{' || c == '}' || c == '[' || c == ']' || c == '(' || c == ')' || c == '|';
@@ -204,7 +204,7 @@ const VrmlNode* VrmlScene::read_node(const Token& first) {
 const VrmlNode* VrmlScene::read_body(const Token& type, std::string name) {
   if (const Token open = next(); open.text != "{" || open.kind != Token::Kind::sign)
     fail(open, "expected '{' after " + in_quotes(type.text) + ", found " + in_quotes(open.text));
-  if (++depth_ > kDeepest) fail(type, "nodes stand more than " + std::to_string(kDeepest) + " deep");
+  if (++depth_ > kDeepestNode) fail(type, "nodes stand more than " + std::to_string(kDeepestNode) + " deep");
   VrmlNode node;
   node.type = type.text;
   node.name = std::move(name);

@@ -25,7 +25,7 @@ constexpr FaceSet kFaceSets[] = {{"IndexedFaceSet", 0, true},
                                  {"TriangleSet", 3, false},
                                  {"QuadSet", 4, false}};
 
-constexpr std::string_view kOthers[] = {
+constexpr std::string_view kOtherElements[] = {
     "Transform", "Group",         "Anchor",        "Billboard", "Collision",     "Switch",   "LOD",
     "Shape",     "Inline",        "ProtoInstance", "Box",       "Cone",          "Cylinder", "Sphere",
     "Text",      "ElevationGrid", "Extrusion",     "PointSet",  "IndexedLineSet"};
@@ -59,7 +59,7 @@ std::string_view field_in(std::string_view around, std::string_view type) {
 }  // namespace
 
 std::string VrmlScene::type_in_x3d(const std::string& name) {
-  if (face_set(name) != nullptr || is_one_of(name, kOthers)) return name;
+  if (face_set(name) != nullptr || is_one_of(name, kOtherElements)) return name;
   if (name == "Coordinate" || name == "CoordinateDouble") return "Coordinate";
   return is_one_of(name, kLeftOut) ? "PointSet" : "Group";
 }

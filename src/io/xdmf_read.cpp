@@ -17,14 +17,14 @@
 namespace holdfast::io {
 namespace {
 
-struct Shape {
+struct XdmfShape {
   std::string_view name, short_name;
   std::int64_t number;  ///< in mixed topologies
   VtkCell cell;
   std::size_t corners;  ///< 0: given by NodesPerElement or the cell
 };
 
-constexpr Shape kShapes[] = {
+constexpr XdmfShape kXdmfShapes[] = {
     {"polyvertex", "", 1, VtkCell::poly_vertex, 0},
     {"polyline", "", 2, VtkCell::poly_line, 0},
     {"polygon", "", 3, VtkCell::polygon, 0},
@@ -108,11 +108,12 @@ class XdmfReader {
     }
   }
 
-  const Shape* shape_named(const std::string& name) const {
-    const auto found = std::find_if(std::begin(kShapes), std::end(kShapes), [&](const Shape& shape) {
-      return name == shape.name || (!shape.short_name.empty() && name == shape.short_name);
-    });
-    return found == std::end(kShapes) ? nullptr : found;
+  const XdmfShape* shape_named(const std::string& name) const {
+    const auto found =
+        std::find_if(std::begin(kXdmfShapes), std::end(kXdmfShapes), [&](const XdmfShape& shape) {
+          return name == shape.name || (!shape.short_name.empty() && name == shape.short_name);
+        });
+    return found == std::end(kXdmfShapes) ? nullptr : found;
   }
 
   void add_cell(VtkCell type, const std::int64_t* corners, std::size_t count) {
@@ -136,7 +137,7 @@ class XdmfReader {
     if (name == "mixed") {
       read_mixed(tag, nodes);
     } else {
-      const Shape* const shape = shape_named(name);
+      const XdmfShape* const shape = shape_named(name);
       if (shape == nullptr)
         file_.fail(tag, "cells of the type " + in_quotes(name) +
                             " are not read; split them into triangles or tetrahedra");
@@ -168,9 +169,9 @@ class XdmfReader {
   void read_mixed(const XmlTag& tag, const std::vector<std::int64_t>& nodes) {
     for (std::size_t i = 0; i < nodes.size();) {
       beat(file_.source().watch);
-      const auto shape = std::find_if(std::begin(kShapes), std::end(kShapes),
-                                      [&](const Shape& s) { return s.number == nodes[i]; });
-      if (shape == std::end(kShapes))
+      const auto shape = std::find_if(std::begin(kXdmfShapes), std::end(kXdmfShapes),
+                                      [&](const XdmfShape& s) { return s.number == nodes[i]; });
+      if (shape == std::end(kXdmfShapes))
         file_.fail(tag, "cells of the type " + std::to_string(nodes[i]) +
                             " are not read; split them into triangles or tetrahedra");
       std::size_t corners = shape->corners;

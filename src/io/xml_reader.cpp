@@ -13,12 +13,10 @@
 namespace holdfast::io {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = std::min(text.find_first_not_of(kXmlBlanks), text.size());
   text.remove_prefix(begin);
-  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+  return text.substr(0, text.find_last_not_of(kXmlBlanks) + 1);
 }
 
 /// The UTF-8 bytes of the character reference (&#252; or &#xfc;) at the start of `text`, and its length;
@@ -101,7 +99,7 @@ std::optional<XmlTag> XmlReader::next() {
 }
 
 void XmlReader::skip_blanks() {
-  position_ = std::min(source_.bytes.find_first_not_of(kBlanks, position_), source_.bytes.size());
+  position_ = std::min(source_.bytes.find_first_not_of(kXmlBlanks, position_), source_.bytes.size());
 }
 
 std::string XmlReader::read_name() {
@@ -161,12 +159,12 @@ std::uint64_t XmlReader::number(const XmlTag& tag, std::string_view key) const {
 }
 
 double XmlReader::real(const XmlTag& tag, std::string_view key) const {
-  return to_real(tag, "the attribute " + std::string(key), trimmed(tag.attribute(key)));
+  return to_real(tag, "the attribute " + std::string(key), without_blanks(tag.attribute(key)));
 }
 
 std::string_view XmlReader::text() const {
   const std::size_t end = std::min(source_.bytes.find('<', position_), source_.bytes.size());
-  return trimmed(source_.bytes.substr(position_, end - position_));
+  return without_blanks(source_.bytes.substr(position_, end - position_));
 }
 
 std::uint64_t XmlReader::number_in_text(const XmlTag& tag) const {
@@ -180,8 +178,8 @@ double XmlReader::real_in_text(const XmlTag& tag) const {
 std::vector<double> XmlReader::reals(const XmlTag& tag, std::string_view key, std::size_t count) const {
   const std::string list = tag.attribute(key);
   std::vector<double> values;
-  for (std::string_view left = trimmed(list); !left.empty(); left = trimmed(left)) {
-    const std::size_t end = std::min(left.find_first_of(kBlanks), left.size());
+  for (std::string_view left = without_blanks(list); !left.empty(); left = without_blanks(left)) {
+    const std::size_t end = std::min(left.find_first_of(kXmlBlanks), left.size());
     values.push_back(to_real(tag, "the attribute " + std::string(key), left.substr(0, end)));
     left.remove_prefix(end);
   }

@@ -4,12 +4,16 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "io/mesh_data.h"
 
 namespace holdfast::io {
+
+/// What separates words in XML (section 2.3).
+inline constexpr std::string_view kXmlBlanks = " \t\r\n";
 
 /// A text escaped for an attribute between double quotes.
 [[nodiscard]] std::string escaped(std::string_view text);

@@ -12,7 +12,7 @@ namespace holdfast::io {
 namespace {
 
 // Sections 4.3.6 to 4.3.16 of the specification; the 64-bit records exist if 32 bits do not suffice.
-constexpr std::string_view kFileHeader = "PK\x03\x04", kDirectoryEntry = "PK\x01\x02", kEnd = "PK\x05\x06",
+constexpr std::string_view kFileHeader = "PK\x03\x04", kDirectoryEntry = "PK\x01\x02", kZipEnd = "PK\x05\x06",
                            kEnd64 = "PK\x06\x06", kEnd64Locator = "PK\x06\x07";
 constexpr std::size_t kEnd64LocatorSize = 20;
 constexpr std::uint16_t kExtra64 = 1, kStored = 0, kDeflated = 8, kEncrypted = 1;
@@ -32,11 +32,11 @@ struct Directory {
 
 /// The archive's directory, from the record at its end; a comment may follow that.
 Directory directory_of(const Source& source) {
-  const std::size_t end = source.bytes.rfind(kEnd);
+  const std::size_t end = source.bytes.rfind(kZipEnd);
   if (end == std::string_view::npos)
     throw FileError(source.path, "byte " + std::to_string(source.bytes.size()),
                     "the archive ends without its directory; the file is truncated");
-  ByteReader bytes = record(source, end, kEnd, "end");
+  ByteReader bytes = record(source, end, kZipEnd, "end");
   bytes.take(6);  // numbers of disks, and entries on this one
   Directory directory;
   directory.entries = bytes.read<std::uint16_t>();

@@ -17,21 +17,21 @@ namespace holdfast::plane {
 namespace {
 
 /// How often a walk passes an edge from its lower end to the upper one, minus how often it passes back.
-struct Side {
+struct EdgeUse {
   Ends ends;
   int net;
 };
 
-std::vector<Side> sides_of(std::span<const Vertex> walk, const std::vector<Vertex>& number) {
-  std::vector<Side> sides;
+std::vector<EdgeUse> sides_of(std::span<const Vertex> walk, const std::vector<Vertex>& number) {
+  std::vector<EdgeUse> sides;
   sides.reserve(walk.size());
   for (std::size_t i = 0; i < walk.size(); ++i) {
     const Vertex a = number[walk[i]], b = number[walk[i + 1 < walk.size() ? i + 1 : 0]];
     sides.push_back({{std::min(a, b), std::max(a, b)}, a < b ? 1 : -1});
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) { return s.ends < t.ends; });
+  std::sort(sides.begin(), sides.end(), [](const EdgeUse& s, const EdgeUse& t) { return s.ends < t.ends; });
   std::size_t count = 0;
-  for (const Side& side : sides) {
+  for (const EdgeUse& side : sides) {
     if (count > 0 && sides[count - 1].ends == side.ends)
       sides[count - 1].net += side.net;
     else
@@ -45,7 +45,7 @@ std::vector<Side> sides_of(std::span<const Vertex> walk, const std::vector<Verte
 /// outer one has one border.
 class Windings {
  public:
-  Windings(const std::vector<Side>& sides, const Walks& faces) : sides_(sides), faces_(faces) {
+  Windings(const std::vector<EdgeUse>& sides, const Walks& faces) : sides_(sides), faces_(faces) {
     face_of_.assign(2 * sides.size(), kOuter);
     for (std::uint32_t f = 0; f < faces.count(); ++f)
       each_side(f, [&](std::size_t half) { face_of_[half] = f; });
@@ -98,12 +98,12 @@ class Windings {
       const Vertex a = faces_.vertices[i], b = faces_.vertices[i + 1 < last ? i + 1 : first];
       const Ends ends{std::min(a, b), std::max(a, b)};
       const auto side = std::lower_bound(sides_.begin(), sides_.end(), ends,
-                                         [](const Side& s, const Ends& e) { return s.ends < e; });
+                                         [](const EdgeUse& s, const Ends& e) { return s.ends < e; });
       visit(2 * static_cast<std::size_t>(side - sides_.begin()) + (a < b ? 0 : 1));
     }
   }
 
-  const std::vector<Side>& sides_;
+  const std::vector<EdgeUse>& sides_;
   const Walks& faces_;
   std::vector<std::uint32_t> face_of_;                // the face on the left of each half
   std::vector<std::vector<std::size_t>> neighbours_;  // by face, the halves that have it on their left
@@ -121,10 +121,10 @@ Corners3 corners_of(const Triangles& mesh, std::size_t t, const Sorted& sorted) 
 std::optional<std::vector<Corners3>> triangles_of_walk(const GivenPoints& points,
                                                        std::span<const Vertex> walk, const Poll& poll) {
   const Sorted sorted(points);
-  const std::vector<Side> sides = sides_of(walk, sorted.number);
+  const std::vector<EdgeUse> sides = sides_of(walk, sorted.number);
   std::vector<Ends> edges;
   edges.reserve(sides.size());
-  for (const Side& side : sides) edges.push_back(side.ends);
+  for (const EdgeUse& side : sides) edges.push_back(side.ends);
   if (!sweep(sorted.points, edges, poll)) return std::nullopt;
   const Walks faces = find_faces(sorted.points, edges);
   Windings windings(sides, faces);

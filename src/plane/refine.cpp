@@ -20,17 +20,17 @@ namespace holdfast::plane {
 namespace {
 
 /// An edge. If its triangle has changed since, this entry is void: the new triangles have their own.
-struct Side {
+struct SegmentSide {
   EdgeCode code;
   Ends ends;
 };
-Side side_of(const Triangles& mesh, EdgeCode e) { return {e, {mesh.from(e), mesh.to(e)}}; }
-bool stands(const Triangles& mesh, const Side& side) {
+SegmentSide side_of(const Triangles& mesh, EdgeCode e) { return {e, {mesh.from(e), mesh.to(e)}}; }
+bool stands(const Triangles& mesh, const SegmentSide& side) {
   return mesh.from(side.code) == side.ends[0] && mesh.to(side.code) == side.ends[1] &&
          mesh.constrained(side.code);
 }
 
-/// A triangle that is too large or too thin; void like a Side once it has changed.
+/// A triangle that is too large or too thin; void like a SegmentSide once it has changed.
 struct Bad {
   double shortest;
   std::uint64_t number;
@@ -48,12 +48,12 @@ class Agenda {
   [[nodiscard]] bool has_side() const { return !sides_.empty(); }
   [[nodiscard]] std::size_t size() const { return sides_.size() + bad_.size(); }
 
-  void add(const Side& side) { sides_.push_back(side); }
+  void add(const SegmentSide& side) { sides_.push_back(side); }
   void add(std::uint32_t triangle, const std::array<Vertex, 3>& corners, double shortest) {
     bad_.push({shortest, ++looks_, triangle, corners});
   }
-  Side take_side() {
-    const Side side = sides_.back();
+  SegmentSide take_side() {
+    const SegmentSide side = sides_.back();
     sides_.pop_back();
     return side;
   }
@@ -64,7 +64,7 @@ class Agenda {
   }
 
  private:
-  std::vector<Side> sides_;
+  std::vector<SegmentSide> sides_;
   std::priority_queue<Bad> bad_;
   std::uint64_t looks_ = 0;
 };
@@ -157,7 +157,7 @@ class Refinement {
     growing_.each_at(p, [&](std::uint32_t t) { look_at(t); });
   }
 
-  void treat(const Side& side) {
+  void treat(const SegmentSide& side) {
     if (stands(mesh_, side) && criteria_.must_cut(side.code)) static_cast<void>(cut(side.code));
   }
   bool cut(EdgeCode e) {
@@ -189,7 +189,7 @@ class Refinement {
     using Kind = Insertion::Place::Kind;
     Insertion::Place found = growing_.locate(p, bad.triangle);
     if (found.kind == Kind::on_edge && mesh_.constrained(found.edge)) found.kind = Kind::behind_constraint;
-    std::vector<Side> hurt;
+    std::vector<SegmentSide> hurt;
     if (found.kind == Kind::behind_constraint)
       hurt.push_back(side_of(mesh_, found.edge));
     else if (found.kind != Kind::nowhere)
@@ -210,8 +210,8 @@ class Refinement {
   }
 
   /// The constraints on the border of the region in conflict with p that p would crowd.
-  [[nodiscard]] std::vector<Side> find_hurt(Vertex p, std::uint32_t first, bool large) {
-    std::vector<Side> hurt;
+  [[nodiscard]] std::vector<SegmentSide> find_hurt(Vertex p, std::uint32_t first, bool large) {
+    std::vector<SegmentSide> hurt;
     region_.each_edge(growing_, p, first, [&](EdgeCode e) {
       if (options_.keep_boundary && large && criteria_.is_close(p, mesh_.apex(e)))
         hurt.push_back(side_of(mesh_, e));
@@ -220,9 +220,9 @@ class Refinement {
     return hurt;
   }
 
-  bool cut_all(const std::vector<Side>& sides, const Bad& bad) {
+  bool cut_all(const std::vector<SegmentSide>& sides, const Bad& bad) {
     bool any = false;
-    for (const Side& side : sides) any = (stands(mesh_, side) && cut(side.code)) || any;
+    for (const SegmentSide& side : sides) any = (stands(mesh_, side) && cut(side.code)) || any;
     if (any && mesh_[bad.triangle].v == bad.corners) look_at(bad.triangle);
     return any;
   }

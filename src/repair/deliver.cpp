@@ -101,7 +101,7 @@ void mark_vertices(std::span<const int> markers, RepairResult& result) {
 }
 
 /// The least double that is not below the distance of two points.
-double distance_above(const Point& p, const Point& q) {
+double displacement_of(const Point& p, const Point& q) {
   exact::Dyadic square;
   for (std::size_t k = 0; k < 3; ++k) {
     const exact::Dyadic difference = exact::Dyadic(p[k]) - exact::Dyadic(q[k]);
@@ -126,7 +126,7 @@ void list_moved(const Complex& input, RepairResult& result) {
       after = before;
       continue;
     }
-    const double distance = distance_above(before, after);
+    const double distance = displacement_of(before, after);
     result.moved.push_back({v, distance});
     result.max_displacement = std::max(result.max_displacement, distance);
   }

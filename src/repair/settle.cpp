@@ -18,7 +18,7 @@ namespace holdfast::repairing {
 namespace {
 
 /// Most gaps by which facets bend in one pass: this ends chains that are led to and fro.
-constexpr double kMostGaps = 64;
+constexpr double kMostGapsOfABend = 64;
 
 class Settling {
  public:
@@ -30,7 +30,7 @@ class Settling {
     if (how_.passings == Passings::bodies) bodies_ = bodies_of(state_);
     const double merged = merge_vertices();
     if (how_.passings != Passings::none) add_passings();
-    const double room = how_.most > 0 ? how_.most - merged : kMostGaps * gap_;
+    const double room = how_.most > 0 ? how_.most - merged : kMostGapsOfABend * gap_;
     const double bent = bend(state_, trouble_, vertices_, {gap_, room, how_.most_facets}, work_, step_);
     drop_unused(state_);
     return merged + bent;

@@ -15,7 +15,7 @@ namespace holdfast {
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr std::size_t kFacetsALook = 1 << 16;  // some milliseconds
+constexpr std::size_t kFacetsAPoll = 1 << 16;  // some milliseconds
 
 // The edge of the regular tetrahedron with this volume. Elements of a field mesh vary in volume; most have
 // less than a regular one with edges of the wanted size.
@@ -177,7 +177,7 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& 
     }
     f.is_asked = f.wanted == least;
     facets.push_back(f);
-    if (facets.size() % kFacetsALook == 0) threads.poll();
+    if (facets.size() % kFacetsAPoll == 0) threads.poll();
   }
   // A function may want any size anywhere.
   return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners, threads);

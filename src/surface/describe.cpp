@@ -18,10 +18,6 @@ std::string place(const Point& p) {
 
 namespace {
 
-unsigned count_of(const Corners& corners) {
-  return corners[1] == no_index ? 1 : corners[2] == no_index ? 2 : 3;
-}
-
 // --- Words
 
 std::string text(const Point& p) { return place(p); }

@@ -10,7 +10,7 @@ namespace holdfast {
 namespace {
 
 // Unit coordinates err by about 2^-52, sums of a few products by little more.
-constexpr double kMargin = 1e-13;
+constexpr double kRoundings = 1e-13;
 constexpr double kShortestAxis = 1e-250;
 
 /// Of all points, the one with the largest value.
@@ -58,7 +58,7 @@ RoundTriangle::RoundTriangle(const std::vector<std::array<Point, 3>>& corners) {
   const Point normal = cross(b - a, c - a);
   for (const auto& t : corners)
     for (const Point& p : t) margin_ = std::max(margin_, distance_above(p, corner_, normal));
-  margin_ += kMargin;
+  margin_ += kRoundings;
   own_[3] = axis(normal);
   for (std::size_t i = 0; i < 3; ++i) {
     side_[i] = corner_[(i + 2) % 3] - corner_[(i + 1) % 3];

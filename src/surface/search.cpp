@@ -52,10 +52,6 @@ Corners face_of(const Element& element, unsigned mask) {
   return corners;
 }
 
-unsigned count_of(const Corners& corners) {
-  return corners[1] == no_index ? 1 : corners[2] == no_index ? 2 : 3;
-}
-
 unsigned whole(const Element& element) { return (1u << element.corners) - 1; }
 
 // Gathers findings from pairs of elements.
@@ -145,10 +141,10 @@ class RootCauses {
 };
 
 // One search.
-class Search {
+class PairSearch {
  public:
-  Search(const Complex& complex, const Elements& elements, Known known, const VisitPair& visit,
-         const Step& step, const SearchTuning& tuning)
+  PairSearch(const Complex& complex, const Elements& elements, Known known, const VisitPair& visit,
+             const Step& step, const SearchTuning& tuning)
       : complex_(complex),
         elements_(elements),
         known_(known),
@@ -375,7 +371,7 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
   const auto unknown =
       static_cast<std::size_t>(std::count(known.each.begin(), known.each.end(), std::uint8_t{0}));
   if (known.each.empty() || unknown >= elements.all.size() / kFew)
-    return Search(complex, elements, known, visit, step, tuning).run();
+    return PairSearch(complex, elements, known, visit, step, tuning).run();
   const NearUnknown near(complex, elements, known, tuning.threads);
   std::vector<std::uint8_t> found(known.found.empty() ? 0 : near.number.size());
   for (std::size_t k = 0; k < found.size(); ++k) found[k] = known.found[near.number[k]];
@@ -385,7 +381,7 @@ void for_each_offending_pair(const Complex& complex, const Elements& elements, c
       for (const Index k : {i, j}) found[k] = known.found[near.number[k]];
     return go_on;
   };
-  Search(complex, near.elements, {near.known, near.sheet, found}, visit_near, step, tuning).run();
+  PairSearch(complex, near.elements, {near.known, near.sheet, found}, visit_near, step, tuning).run();
 }
 
 bool all_fit(const Complex& complex, const Elements& elements, Known known, const Step& step,

@@ -28,6 +28,10 @@ namespace holdfast {
 /// Vertices of a vertex, side, segment or facet in ascending order; unused places hold `no_index`.
 using Corners = std::array<Index, 3>;
 
+[[nodiscard]] inline unsigned count_of(const Corners& corners) {
+  return corners[1] == no_index ? 1 : corners[2] == no_index ? 2 : 3;
+}
+
 /// Two simplices whose interiors meet.
 struct Finding {
   DefectKind kind;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "numbers/release.h"
+#include "numbers/vector.h"
 #include "surface/complex.h"
 
 namespace holdfast {
@@ -17,19 +18,11 @@ namespace {
 constexpr std::size_t kMostVisits = 64;  // of pairs of sheets, per element
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double product(const Point& n, const Point& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; }
-
 /// The largest coordinate.
 double size_of(const Point& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
-Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-
-Point cross(const Point& u, const Point& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
 /// A normal of a triangle, twice its area long; not finite if that overflows.
-Point normal_of(const Point& a, const Point& b, const Point& c) { return cross(minus(b, a), minus(c, a)); }
+Point normal_of(const Point& a, const Point& b, const Point& c) { return cross(b - a, c - a); }
 
 /// Whether a fan of one part surely shares only its vertex with facets there that are this flat.
 bool is_steep(double rise, double slope, double layer, double share) {
@@ -201,7 +194,7 @@ void SheetPairs::measure(Part& part) const {
     for (const Index v : elements_.all[e].vertex)
       if (const double size = size_of(complex_.vertices[v]); size < least) {
         least = size;
-        part.offset = product(part.normal, complex_.vertices[v]);
+        part.offset = dot(part.normal, complex_.vertices[v]);
       }
   // Three roundings of products and three of sums err by at most 2^-51 (|x| + |d|), and by less than 2^-1070
   // where something is denormal.
@@ -211,7 +204,7 @@ void SheetPairs::measure(Part& part) const {
     for (const Index v : elements_.all[e].vertex) {
       const Point& p = complex_.vertices[v];
       const double size = size_of(p);
-      const double h = std::fabs(product(part.normal, p) - part.offset) + kShare * size + least_error;
+      const double h = std::fabs(dot(part.normal, p) - part.offset) + kShare * size + least_error;
       if (part.is_round_origin)
         part.most = std::max(part.most, h);
       else
@@ -230,11 +223,11 @@ SheetPairs::Flatness SheetPairs::flatness(const Part& part, const std::array<Poi
   const Point &v = corners[corner], &p = corners[(corner + 1) % 3], &q = corners[(corner + 2) % 3];
   const double size = std::max({size_of(v), size_of(p), size_of(q)});
   const double t = part.most + part.most_share * size;
-  const Point a = minus(p, v), b = minus(q, v), n = cross(a, b), side = minus(q, p);
-  const double area = product(n, n), most_area = product(a, a) * product(b, b);
+  const Point a = p - v, b = q - v, n = cross(a, b), side = q - p;
+  const double area = dot(n, n), most_area = dot(a, a) * dot(b, b);
   constexpr double kLeastShare = 0x1p-80, kLeast = 0x1p-400;
   const bool is_known = area > kLeastShare * most_area && area > kLeast && t > kLeast;
-  return {t, is_known ? 64 * (t * t) * product(side, side) / area : kInfinity};
+  return {t, is_known ? 64 * (t * t) * dot(side, side) / area : kInfinity};
 }
 
 /// False if the facet does not touch the plane of the other part.
@@ -244,7 +237,7 @@ bool SheetPairs::find_near(const Part& part, std::size_t item, const Part& plane
   double most = 0;  // of the bounds
   unsigned above = 0, below = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    h[i] = product(plane.normal, corners[i]) - plane.offset;
+    h[i] = dot(plane.normal, corners[i]) - plane.offset;
     const double bound = plane.most + plane.most_share * size_of(corners[i]);
     above |= static_cast<unsigned>(h[i] > bound) << i;
     below |= static_cast<unsigned>(h[i] < -bound) << i;
@@ -270,8 +263,8 @@ bool SheetPairs::find_near(const Part& part, std::size_t item, const Part& plane
     }
     for (std::size_t j = 0; j < 3; ++j) {
       if ((beyond >> j & 1u) == 0) continue;
-      const Point way = minus(corners[j], corners[i]);
-      far = std::max(far, product(way, way));
+      const Point way = corners[j] - corners[i];
+      far = std::max(far, dot(way, way));
     }
   }
   const double room = 5 * most / rise * std::sqrt(far);

@@ -34,9 +34,9 @@ class Sorted {
 
 // Shoots lines up along the last axis, moved by (e, e^2) for an infinitesimal positive e, so that they meet
 // no side and no facet seen edge-on (Edelsbrunner and Mücke 1990).
-class Search {
+class PlaceSearch {
  public:
-  Search(const Complex& complex, std::span<const Point> points)
+  PlaceSearch(const Complex& complex, std::span<const Point> points)
       : complex_(complex),
         points_(points),
         sorted_(points, 0),
@@ -113,7 +113,7 @@ class Search {
 
 std::vector<Whereabouts> whereabouts(const Complex& complex, const Separation& separation,
                                      std::span<const Point> points, const std::function<void()>& step) {
-  Search search(complex, points);
+  PlaceSearch search(complex, points);
   for (Index f = 0; f < complex.facets.size(); ++f) {
     step();
     search.look_at(f);

@@ -10,23 +10,23 @@
 namespace holdfast {
 namespace {
 
-using Vector = std::vector<double>;
+using Unknowns = std::vector<double>;
 
-double dot(const Vector& a, const Vector& b) {
+double product(const Unknowns& a, const Unknowns& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
-void add(Vector& a, double factor, const Vector& b) {
+void add(Unknowns& a, double factor, const Unknowns& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
 }
 
 // The last steps and changes of the gradient, which replace the second derivatives.
 class History {
  public:
-  void remember(Vector step, Vector change) {
-    const double curvature = dot(step, change);
+  void remember(Unknowns step, Unknowns change) {
+    const double curvature = product(step, change);
     if (!(curvature > 0)) return;
     if (pairs_.size() == tuning::kHistory) pairs_.pop_front();
     pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
@@ -35,21 +35,21 @@ class History {
   [[nodiscard]] bool empty() const { return pairs_.empty(); }
 
   // The direction of descent: minus the approximation of the inverse Hessian times the gradient.
-  [[nodiscard]] Vector direction(const Vector& gradient) const {
-    Vector q = gradient;
+  [[nodiscard]] Unknowns direction(const Unknowns& gradient) const {
+    Unknowns q = gradient;
     std::vector<double> alpha(pairs_.size());
     for (std::size_t k = pairs_.size(); k-- > 0;) {
-      alpha[k] = pairs_[k].rho * dot(pairs_[k].step, q);
+      alpha[k] = pairs_[k].rho * product(pairs_[k].step, q);
       add(q, -alpha[k], pairs_[k].change);
     }
     double scale = -1;
     if (!pairs_.empty()) {
       const Pair& last = pairs_.back();
-      scale = -1 / (last.rho * dot(last.change, last.change));
+      scale = -1 / (last.rho * product(last.change, last.change));
     }
     for (double& x : q) x *= scale;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double beta = pairs_[k].rho * dot(pairs_[k].change, q);
+      const double beta = pairs_[k].rho * product(pairs_[k].change, q);
       add(q, -alpha[k] - beta, pairs_[k].step);
     }
     return q;
@@ -57,22 +57,22 @@ class History {
 
  private:
   struct Pair {
-    Vector step, change;
+    Unknowns step, change;
     double rho;
   };
   std::deque<Pair> pairs_;
 };
 
 struct State {
-  Vector x, gradient;
+  Unknowns x, gradient;
   double value = 0;
 };
 
 // A step along `direction` that satisfies the weak Wolfe conditions, or at least reduces the value. False if
 // none is found.
-bool search(const State& from, const Vector& direction, double first, const ValueAndGradient& function,
+bool search(const State& from, const Unknowns& direction, double first, const ValueAndGradient& function,
             State& to) {
-  const double slope = dot(from.gradient, direction);
+  const double slope = product(from.gradient, direction);
   if (!(slope < 0)) return false;
   double low = 0, high = std::numeric_limits<double>::infinity(), t = first;
   bool decreased = false;
@@ -83,7 +83,7 @@ bool search(const State& from, const Vector& direction, double first, const Valu
     decreased = to.value <= from.value + tuning::kSufficientDecrease * t * slope;
     if (!decreased) {
       high = t;
-    } else if (dot(to.gradient, direction) < tuning::kCurvature * slope) {
+    } else if (product(to.gradient, direction) < tuning::kCurvature * slope) {
       low = t;
     } else {
       return true;
@@ -96,12 +96,12 @@ bool search(const State& from, const Vector& direction, double first, const Valu
 }  // namespace
 
 double minimise(std::vector<double>& x, const ValueAndGradient& function, const LbfgsLimits& limits) {
-  State now{x, Vector(x.size()), 0};
+  State now{x, Unknowns(x.size()), 0};
   now.value = function(now.x, now.gradient);
-  State next{x, Vector(x.size()), 0};
+  State next{x, Unknowns(x.size()), 0};
   History history;
   for (int k = 0; k < limits.iterations; ++k) {
-    const double length = std::sqrt(dot(now.gradient, now.gradient));
+    const double length = std::sqrt(product(now.gradient, now.gradient));
     if (!(length > 0) || !std::isfinite(length)) break;
     const double first = history.empty() ? std::min(1.0, tuning::kFirstMove / length) : 1;
     if (!search(now, history.direction(now.gradient), first, function, next)) {
@@ -109,7 +109,7 @@ double minimise(std::vector<double>& x, const ValueAndGradient& function, const 
       history.forget();
       continue;
     }
-    Vector step = next.x, change = next.gradient;
+    Unknowns step = next.x, change = next.gradient;
     add(step, -1, now.x);
     add(change, -1, now.gradient);
     history.remember(std::move(step), std::move(change));

@@ -49,7 +49,7 @@ std::size_t swap_and_relocate(Tangle& tangle, Watch& watch) {
 
 }  // namespace
 
-UntangleStats make_positive(Tangle& tangle, const Filler* filler, Watch& watch) {
+UntangleStats make_positive(Tangle& tangle, const CavityFiller* filler, Watch& watch) {
   UntangleStats stats;
   // The connectivity is mostly right for some positions, so it stays unchanged as long as moving helps.
   move_vertices(tangle, watch);

@@ -20,6 +20,6 @@ struct UntangleStats {
 /// boundary alone. Where the boundary is an embedded surface with M on its inner side, the degree is 1 inside
 /// and 0 outside. If all signs are +1, it counts the tetrahedra that hold x: one inside, none outside. So no
 /// two overlap, and together they fill the boundary's inside. (The same for each region by itself.)
-UntangleStats make_positive(Tangle& tangle, const Filler* filler, Watch& watch);
+UntangleStats make_positive(Tangle& tangle, const CavityFiller* filler, Watch& watch);
 
 }  // namespace holdfast

@@ -45,7 +45,7 @@ void add_cluster(const Tangle& tangle, Tet seed, Growing& cavity) {
 }
 
 // Grows the cavity until the filler can fill it, or until it is the whole connected part.
-RefillCavity::Outcome fill_round(Tangle& tangle, Tet seed, const Filler& filler, Watch& watch) {
+RefillCavity::Outcome fill_round(Tangle& tangle, Tet seed, const CavityFiller& filler, Watch& watch) {
   Growing growing(tangle);
   add_cluster(tangle, seed, growing);
   bool whole = false;
@@ -61,7 +61,7 @@ RefillCavity::Outcome fill_round(Tangle& tangle, Tet seed, const Filler& filler,
 
 }  // namespace
 
-RefillStats refill(Tangle& tangle, const Filler& filler, Watch& watch) {
+RefillStats refill(Tangle& tangle, const CavityFiller& filler, Watch& watch) {
   RefillStats stats;
   for (const Tet t : tangle.nonpositive()) {
     // Removed with another cavity. (A new tetrahedron, which is positive, may have its slot.)

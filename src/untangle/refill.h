@@ -24,7 +24,7 @@ struct Filled {
   Volume volume{};              ///< every bounded region with its own id, without what lies outside
   std::vector<Index> faulty{};  ///< vertices of what is invalid
 };
-using Filler = std::function<Filled(const Complex&)>;
+using CavityFiller = std::function<Filled(const Complex&)>;
 
 struct RefillStats {
   std::size_t cavities = 0;
@@ -37,6 +37,6 @@ struct RefillStats {
 
 /// Empties and refills the smallest cavities that allow it. Free vertices in a cavity stay where they serve;
 /// the others are taken out of the mesh, and the filler's come in.
-RefillStats refill(Tangle& tangle, const Filler& filler, Watch& watch);
+RefillStats refill(Tangle& tangle, const CavityFiller& filler, Watch& watch);
 
 }  // namespace holdfast

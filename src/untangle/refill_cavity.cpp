@@ -39,7 +39,7 @@ class FacetIndex {
 
 }  // namespace
 
-RefillCavity::Outcome RefillCavity::fill(const Filler& filler) {
+RefillCavity::Outcome RefillCavity::fill(const CavityFiller& filler) {
   for (int k = 0;; ++k) {
     Filled filled = filler(cavity_.view());
     if (filled.outcome == Filled::Outcome::done) return judge(std::move(filled.volume));

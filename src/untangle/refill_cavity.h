@@ -21,7 +21,7 @@ class RefillCavity {
     not_representable,  ///< the filler has no mesh in doubles
   };
   /// Asks the filler for a mesh; the tangle is unchanged.
-  Outcome fill(const Filler& filler);
+  Outcome fill(const CavityFiller& filler);
   /// After Outcome::filled: puts the new tetrahedra in the place of the old.
   void apply(Tangle& tangle) const;
 

@@ -138,7 +138,7 @@ TEST(Untangle, ACavityStaysConnected) {
   std::iota(all.begin(), all.end(), Tet{0});
   const std::vector<Tet> cavity(all.begin(), all.end() - 4);
   for (Tet t = 0; t < all.size(); ++t) ASSERT_EQ(tangle.holds(t, middle), t >= cavity.size());
-  const Filler filler = [](const Complex& complex) {
+  const CavityFiller filler = [](const Complex& complex) {
     Options options;
     options.keep = Keep::bounded;
     options.drop_outside = true;
