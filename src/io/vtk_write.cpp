@@ -66,7 +66,6 @@ void write_vtk(AtomicWriter& out, const Volume& volume) {
                                 per_cell[2] * volume.segments.size();
   const std::uint64_t points = node_count(volume);
   out << "# vtk DataFile Version 3.0\nHoldfast\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-  write_names(out, volume.names);
   out << "POINTS " << points << " double\n";
   for (std::size_t i = 0; i < points; ++i) {
     const Point& p = node(volume, i);
@@ -81,6 +80,8 @@ void write_vtk(AtomicWriter& out, const Volume& volume) {
   out << "CELL_TYPES " << cells << '\n';
   visit_cells(volume,
               [&](VtkCell type, const Nodes&, int, int, int) { out << static_cast<int>(type) << '\n'; });
+  // Behind the cells: Gmsh refuses a file with fields before the points, and meshio reads them only here.
+  write_names(out, volume.names);
   out << "CELL_DATA " << cells << '\n';
   // The region comes first: viewers colour by the first array, and meshio keeps it if it keeps only one.
   write_array(out, volume, "region", [](int, int region, int) { return region; });

@@ -72,6 +72,14 @@ class Formats(CliTest):
         self.assertIn("1 name of a marker is changed to what .inp allows", ended.stderr)
         self.assertIn("ELSET=region_1", (self.folder / "b.inp").read_text())
 
+    def test_names_stand_behind_the_cells_in_vtk(self):
+        self.run_program("mesh", "cube.off", "-o", "a.vtk", "--name", "region:1=body", "--fill")
+        lines = (self.folder / "a.vtk").read_text().splitlines()
+        heads = [line.split()[0] for line in lines if line.split()[0] in ("POINTS", "CELLS", "CELL_TYPES", "FIELD", "CELL_DATA")]
+        self.assertEqual(heads, ["POINTS", "CELLS", "CELL_TYPES", "FIELD", "CELL_DATA"])
+        regions = json.loads(self.run_program("info", "a.vtk", "--json").stdout)["regions"]
+        self.assertEqual([region["name"] for region in regions], ["body"])
+
     def test_markers_by_angle_of_a_surface_with_some_markers(self):
         triangles = "".join("%d %d %d %d\n" % (*(v + 1 for v in f), 7 * (i < 2)) for i, f in enumerate(CUBE_FACETS))
         points = "".join("%s %s %s 0\n" % p for p in CUBE_POINTS)

@@ -180,7 +180,10 @@ def with_gmsh(path):
         text = run.stdout + run.stderr
         if "Error" in text or not out.exists():
             raise ValueError("gmsh: " + text[-400:])
-        return read_msh_22(out.read_text(errors="replace"))
+        found = read_msh_22(out.read_text(errors="replace"))
+        if path.suffix == ".vtk":  # of whose arrays Gmsh reads none
+            return {"points": found["points"], "tetrahedra": found["tetrahedra"], "volume": sum(found["volumes"].values())}
+        return found
 
 
 def read_msh_22(text):

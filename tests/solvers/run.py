@@ -23,7 +23,7 @@ PYTHON = "/usr/bin/python3"
 READS = {
     "vtu": ["meshio", "vtk", "sfepy"],
     "vtm": ["vtk"],
-    "vtk": ["meshio", "vtk"],
+    "vtk": ["meshio", "vtk", "gmsh"],
     "msh": ["gmsh", "meshio", "dolfinx", "getfem", "dealii", "petsc", "escript", "saturne"],
     "msh2": ["meshio", "gmsh", "openfoam", "freefem", "getfem", "dealii", "petsc", "getdp", "escript", "saturne", "rheolef"],
     "msh binary": ["gmsh", "meshio", "dolfinx", "petsc", "saturne"],
@@ -48,7 +48,7 @@ READS = {
 # The same for second order: counts of nodes, and volumes and areas of the elements by their corners.
 SECOND_ORDER = {
     "vtu": ["meshio", "vtk"],
-    "vtk": ["meshio", "vtk"],
+    "vtk": ["meshio", "vtk", "gmsh"],
     "msh": ["gmsh", "meshio", "dolfinx", "escript"],
     "msh2": ["meshio", "gmsh", "getdp", "escript", "rheolef"],
     "msh binary": ["gmsh", "meshio"],
