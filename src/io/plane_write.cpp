@@ -73,7 +73,8 @@ void write_grid(AtomicWriter& out, const PlaneMesh& mesh, const WriteOptions& op
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     cells.add(VtkCell::triangle, mesh.triangles[i]);
     regions.push_back(mesh.regions[i]);
-    markers.push_back(0);
+    // Other formats of triangles have only markers, so that `convert` keeps the regions as these.
+    markers.push_back(mesh.regions[i]);
   }
   for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
     cells.add(VtkCell::line, mesh.segments[i]);

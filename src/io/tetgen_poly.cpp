@@ -177,7 +177,9 @@ class PolyReader {
 TetgenNodes read_tetgen_nodes(TextReader& text) {
   TetgenNodes nodes;
   const std::size_t count = text.count("the number of vertices", 8);
-  if (!text.at_line_end() && text.integer("the dimension") != 3) text.fail("the dimension is not 3");
+  if (const std::int64_t dimension = text.at_line_end() ? 3 : text.integer("the dimension"); dimension != 3)
+    text.fail("the dimension is " + std::to_string(dimension) + ", not 3" +
+              (dimension == 2 ? "; `plane` reads files of two dimensions" : ""));
   const std::size_t attributes = text.at_line_end() ? 0 : text.count("the number of attributes", 1);
   const bool marked = !text.at_line_end() && text.integer("whether there are markers") != 0;
   nodes.attributes = attributes;
