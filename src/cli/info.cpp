@@ -78,7 +78,9 @@ std::string text_of(const std::filesystem::path& file, bool is_volume, const Sta
   };
   line("vertices", fmt::format("{}{}", s.vertices,
                                s.unused_vertices > 0 ? fmt::format(" ({} unused)", s.unused_vertices) : ""));
-  if (s.mid_nodes > 0) line("mid-edge nodes", fmt::format("{}", s.mid_nodes));
+  if (s.mid_nodes > 0)
+    line("mid-edge nodes",
+         fmt::format("{}; sizes and shapes below are those of the straight elements", s.mid_nodes));
   if (is_volume) line("tetrahedra", fmt::format("{}", s.tetrahedra));
   line("triangles", fmt::format("{}", s.facets));
   line("segments", fmt::format("{}", s.segments));

@@ -72,6 +72,7 @@ class Order(CliTest):
                 self.assertIn("holds   Jacobians positive", said)
                 found = json.loads(self.run_program("info", "a." + ending, "--json").stdout)
                 self.assertEqual((found["order"], found["mid_nodes"]), (2, found["edges"]))
+                self.assertIn("of the straight elements", self.run_program("info", "a." + ending).stdout)
                 self.run_program("convert", "a." + ending, "b.mesh", "--order", "1", "-q")
                 found = json.loads(self.run_program("info", "b.mesh", "--json").stdout)
                 self.assertEqual((found["order"], found["unused_vertices"]), (1, 0))
