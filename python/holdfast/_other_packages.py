@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import itertools
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
+from ._meshio import fields_of, pairs_of
 from ._surface import Array
 
 if TYPE_CHECKING:
@@ -35,6 +37,7 @@ def to_meshio(mesh: _tetmesh.TetMesh) -> Any:
         np.array(mesh.nodes),
         [(cells[i][0], np.array(cells[i][1])) for i in there],
         cell_data={"region": [np.array(region[i]) for i in there], "marker": [np.array(marker[i]) for i in there]},
+        field_data=fields_of(mesh.names),
     )
 
 
@@ -57,6 +60,10 @@ def to_vtk(mesh: _tetmesh.TetMesh) -> Any:
         data = numpy_to_vtk(values, deep=True)
         data.SetName(name)
         grid.GetCellData().AddArray(data)
+    for name, rows in itertools.groupby(sorted(pairs_of(mesh.names)), key=lambda row: row[0]):  # as in .vtu
+        pairs = numpy_to_vtk(np.array([row[1:] for row in rows], np.int32), deep=True)
+        pairs.SetName(name)
+        grid.GetFieldData().AddArray(pairs)
     return grid
 
 

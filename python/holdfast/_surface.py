@@ -14,6 +14,7 @@ from . import _core
 from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._masks import plain
+from ._meshio import kind_and_cells, tags_of
 from ._names import Names, names_of
 
 Array = npt.NDArray[Any]
@@ -285,9 +286,6 @@ def _of_vtk(mesh: Any) -> Surface:
     return Surface(points, cells.triangles, segments=segments, triangle_markers=markers)
 
 
-_MARKER_NAMES = ("marker", "gmsh:physical", "medit:ref", "cell_tags")
-
-
 def _of_meshio(mesh: Any) -> Surface:
     points = plain(mesh.points, "points")
     if points.ndim == 2 and points.shape[1] == 2:
@@ -296,12 +294,11 @@ def _of_meshio(mesh: Any) -> Surface:
     markers: list[Array] = []
     segments: list[Array] = []
     segment_markers: list[Array] = []
-    data = getattr(mesh, "cell_data", None) or {}
-    name = next((n for n in _MARKER_NAMES if n in data), None)
+    tags = tags_of(mesh, "marker")
     for i, block in enumerate(mesh.cells):
-        kind, cells = (block.type, block.data) if hasattr(block, "type") else block
+        kind, cells = kind_and_cells(block)
         cells = plain(cells, "cells")
-        marks = np.zeros(len(cells), np.int64) if name is None else plain(data[name][i], name)
+        marks = np.zeros(len(cells), np.int64) if tags.ids is None else tags.ids[i]
         if kind in ("triangle", "triangle6", "triangle7"):
             triangles.append(cells[:, :3])
             markers.append(marks)
@@ -314,15 +311,18 @@ def _of_meshio(mesh: Any) -> Surface:
         elif kind in ("line", "line3"):
             segments.append(cells[:, :2])
             segment_markers.append(marks)
-    kinds = [str(b.type if hasattr(b, "type") else b[0]) for b in mesh.cells]
-    if not triangles and any(kind.startswith("tet") for kind in kinds):
-        raise TypeError("the mesh holds tetrahedra and no triangles; a surface is expected")
+    solid = [kind for kind, _ in map(kind_and_cells, mesh.cells) if kind.startswith(("tet", "hex", "wedge", "pyramid"))]
+    if not triangles and solid:
+        held = "tetrahedra" if solid[0].startswith("tet") else f"{solid[0]} cells"
+        raise TypeError(f"the mesh holds {held} and no triangles; a surface is expected")
+    marked = tags.ids is not None
     return Surface(
         points,
         np.concatenate(triangles) if triangles else np.empty((0, 3), np.int64),
         segments=np.concatenate(segments) if segments else None,
-        triangle_markers=np.concatenate(markers) if name is not None and markers else None,
-        segment_markers=np.concatenate(segment_markers) if name is not None and segments else None,
+        triangle_markers=np.concatenate(markers) if marked and markers else None,
+        segment_markers=np.concatenate(segment_markers) if marked and segments else None,
+        names=tags.names,
     )
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from . import _core
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._masks import plain
+from ._meshio import kind_and_cells, tags_of
 from ._surface import Array, PathLike, markers_of
 from ._tetmesh import TetMesh
 
@@ -98,25 +99,24 @@ def volume_of(mesh: Any) -> TetMesh:
                     f"not {type(mesh).__name__}")
 
 
-_REGION_NAMES = ("region", "gmsh:physical", "medit:ref")
-_MARKER_NAMES = ("marker", "gmsh:physical", "medit:ref")
-
-
 def _of_meshio(mesh: Any) -> TetMesh:
-    data = getattr(mesh, "cell_data", None) or {}
+    blocks = [kind_and_cells(block) for block in mesh.cells]
+    names = tags_of(mesh, "region").names
 
-    def blocks(kind: str, names: typing.Sequence[str]) -> tuple[Optional[Array], Optional[Array]]:
-        here = [i for i, b in enumerate(mesh.cells) if b.type == kind]
+    def tagged(kind: str, own: str) -> tuple[Optional[Array], Optional[Array]]:
+        here = [i for i, (of_block, _) in enumerate(blocks) if of_block == kind]
         if not here:
             return None, None
-        name = next((n for n in names if n in data), None)
-        cells = np.concatenate([plain(mesh.cells[i].data, "cells") for i in here])
-        return cells, None if name is None else np.concatenate([plain(data[name][i], name) for i in here])
+        ids = tags_of(mesh, own).ids
+        cells = np.concatenate([plain(blocks[i][1], "cells") for i in here])
+        return cells, None if ids is None else np.concatenate([ids[i] for i in here])
 
-    tetrahedra, regions = blocks("tetra", _REGION_NAMES)
-    triangles, triangle_markers = blocks("triangle", _MARKER_NAMES)
-    segments, segment_markers = blocks("line", _MARKER_NAMES)
+    tetrahedra, regions = tagged("tetra", "region")
+    triangles, triangle_markers = tagged("triangle", "marker")
+    segments, segment_markers = tagged("line", "marker")
     if tetrahedra is None:
-        raise TypeError("the mesh holds no tetrahedra")
+        second = any(kind == "tetra10" for kind, _ in blocks)
+        raise TypeError("the mesh holds tetrahedra of second order (tetra10), and those of first order are expected: write it "
+                        "to a file and read that" if second else "the mesh holds no tetrahedra")
     return TetMesh(mesh.points, tetrahedra, regions=markers_of(regions, "regions"), triangles=triangles,
-                   triangle_markers=triangle_markers, segments=segments, segment_markers=segment_markers)
+                   triangle_markers=triangle_markers, segments=segments, segment_markers=segment_markers, names=names)

@@ -83,6 +83,46 @@ def test_meshio_round_trip(tmp_path):
     assert len(holdfast.mesh(*box((1, 1, 1), (3, 3, 3)), size=field)) > 0
 
 
+def test_names_go_to_other_packages_and_come_back(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    points, triangles, markers = two_boxes()
+    names = {"triangles": {1: "outer", 2: "core"}, "regions": {1: "core"}}
+    mesh = holdfast.mesh(holdfast.Surface(points, triangles, triangle_markers=np.where(np.asarray(markers) == markers[0], 1, 2), names=names))
+    assert mesh.names.triangles == names["triangles"] and mesh.names.regions == names["regions"]
+    out = mesh.to_meshio()
+    assert {name: pair.tolist() for name, pair in out.field_data.items()} == {"core": [1, 3], "outer": [1, 2], "core_2": [2, 2]}
+    again = holdfast.mesh(out)
+    assert again.names.triangles == {1: "outer", 2: "core_2"} and again.names.regions == names["regions"]
+    mesh.save(tmp_path / "a.msh")
+    read = holdfast.mesh(meshio.read(tmp_path / "a.msh"))
+    assert set(read.names.triangles.values()) >= {"outer"}
+    pytest.importorskip("vtkmodules")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    fields = mesh.to_vtk().GetFieldData()
+    assert vtk_to_numpy(fields.GetArray("core")).tolist() == [[1, 3], [2, 2]]
+
+
+def test_sets_of_meshio_are_markers(cube):
+    meshio = pytest.importorskip("meshio")
+    points, triangles = cube
+    cells = [("triangle", triangles[:4]), ("line", [(0, 1)]), ("triangle", triangles[4:])]
+    sets = {"low": [[0, 1], [], None], "side": [None, None, np.array([0, 7])], "rim": [[], [0], []], "gmsh:bounding_entities": [[3], [], []]}
+    mesh = holdfast.mesh(meshio.Mesh(points, cells, cell_sets=sets))
+    assert mesh.triangle_markers.tolist() == [1, 1, 0, 0, 2, 0, 0, 0, 0, 0, 0, 2] and mesh.segment_markers.tolist() == [1]
+    assert mesh.names.triangles == {1: "low", 2: "side"} and mesh.names.segments == {1: "rim"}
+
+
+def test_cells_of_meshio_that_are_no_surface_are_named(cube):
+    meshio = pytest.importorskip("meshio")
+    points, _ = cube
+    with pytest.raises(TypeError, match="hexahedron cells and no triangles"):
+        holdfast.mesh(meshio.Mesh(points, [("hexahedron", [(0, 1, 3, 2, 4, 5, 7, 6)])]))
+    second = holdfast.mesh(*cube).second_order().to_meshio()
+    with pytest.raises(TypeError, match="tetra10"):
+        holdfast.check(cube, second)
+
+
 def test_vtk_round_trip():
     pytest.importorskip("vtkmodules")
     from vtkmodules.util.numpy_support import vtk_to_numpy
