@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ._masks import plain
 from ._names import Names
 
-_TAGS = ("gmsh:physical", "medit:ref", "cell_tags", "nastran:ref", "netgen:index")
+_TAGS = ("gmsh:physical", "medit:ref", "cell_tags", "nastran:ref", "netgen:index", "su2:tag")
 _DIMENSIONS = {"vertex": 0, "line": 1, "triangle": 2, "quad": 2, "polygon": 2}
 
 
@@ -31,13 +31,18 @@ def tags_of(mesh: Any, own: str) -> Tags:
     name = next((n for n in (own, *_TAGS) if n in data), None)
     if name is None:
         return _tags_of_sets(mesh)
-    ids = [plain(values, name) for values in data[name]]
+    ids = [_without_columns(plain(values, name)) for values in data[name]]
     names = names_in_fields(getattr(mesh, "field_data", None) or {})
     for number, groups in (getattr(mesh, "cell_tags", None) or {}).items():  # those of MED have no dimension
         for i, block in enumerate(mesh.cells):
             if groups and np.any(ids[i] == number):
                 names[_field_of(kind_and_cells(block)[0])].setdefault(int(number), ", ".join(groups))
     return Tags(ids, names)
+
+
+def _without_columns(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """meshio's reader of legacy VTK gives arrays of one column."""
+    return values[:, 0] if values.ndim == 2 and values.shape[1] == 1 else values
 
 
 def _field_of(kind: str) -> int:

@@ -113,6 +113,17 @@ def test_sets_of_meshio_are_markers(cube):
     assert mesh.names.triangles == {1: "low", 2: "side"} and mesh.names.segments == {1: "rim"}
 
 
+def test_tags_of_meshio_may_be_columns(cube, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    points, triangles = cube
+    mesh = holdfast.mesh(points, triangles, triangle_markers=range(12), fill=True)
+    mesh.save(tmp_path / "a.vtk")  # whose arrays have one column in meshio
+    read = meshio.read(tmp_path / "a.vtk")
+    assert read.cell_data["marker"][1].shape == (12, 1)
+    assert sorted(holdfast.mesh(read, fill=True).triangle_markers) == list(range(12))
+    assert np.array_equal(holdfast.untangle(read).regions, mesh.regions)
+
+
 def test_cells_of_meshio_that_are_no_surface_are_named(cube):
     meshio = pytest.importorskip("meshio")
     points, _ = cube
