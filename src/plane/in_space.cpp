@@ -85,6 +85,7 @@ class Together {
       if (part.turned) std::swap(t[1], t[2]);
       sum_.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
     }
+    add_markers(mesh, number);
     const auto regions = static_cast<int>(sum_.report.regions);
     for (const int region : mesh.regions) sum_.mesh.regions.push_back(regions + region);
     for (const Segment& s : mesh.segments) sum_.mesh.segments.push_back({number[s[0]], number[s[1]]});
@@ -116,6 +117,17 @@ class Together {
   PlaneResult take() { return std::move(sum_); }
 
  private:
+  /// Adds the markers of a plane whose points, but not yet its segments, are there.
+  void add_markers(const PlaneMesh& mesh, const std::vector<Index>& number) {
+    std::vector<int>&of_points = sum_.mesh.point_markers, &of_segments = sum_.mesh.segment_markers;
+    if (!of_points.empty() || !mesh.point_markers.empty()) of_points.resize(sum_.mesh.in_space.size(), 0);
+    for (std::size_t v = 0; v < mesh.point_markers.size(); ++v)
+      if (int& marker = of_points[number[v]]; marker == 0) marker = mesh.point_markers[v];
+    if (of_segments.empty() && mesh.segment_markers.empty()) return;
+    of_segments.resize(sum_.mesh.segments.size(), 0);
+    of_segments.insert(of_segments.end(), mesh.segment_markers.begin(), mesh.segment_markers.end());
+    of_segments.resize(sum_.mesh.segments.size() + mesh.segments.size(), 0);
+  }
   // Pieces of segments come in order; their inner points lie on the segments and not on the mean plane.
   void put_on_segments(const Part& part, const PlaneMesh& mesh, const Lift& lift,
                        const std::vector<Index>& number) {

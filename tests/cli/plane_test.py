@@ -165,6 +165,40 @@ class Triangles(CliTest):
         self.run_program("plane", "in.poly", "-o", "out.stl", expect=2)
 
 
+class MarkersInSpace(CliTest):
+    """Formats of surfaces have markers of edges and vertices, too."""
+
+    def edges(self, corners, edges, more="", *options):
+        points = "".join("%r %r %r %d\n" % p for p in corners)
+        lines = "".join("%d %d %d\n" % e for e in edges)
+        self.write("in.mesh", f"MeshVersionFormatted 2\nDimension 3\nVertices {len(corners)}\n{points}Edges {len(edges)}\n"
+                              f"{lines}{more}End\n")
+        self.run_program("plane", "in.mesh", "-o", "out.node", "-q", *options)
+        rows = [list(map(int, line.split())) for line in (self.folder / "out.edge").read_text().splitlines()]
+        self.assertEqual(rows[0][1], 1)
+        return [(frozenset(row[1:3]), row[3]) for row in rows[1:]]
+
+    def test_of_outlines(self):
+        corners = [(0.0, 0.0, 5.0, 1), (2.0, 0.0, 5.0, 0), (2.0, 1.0, 5.0, 3), (0.0, 1.0, 5.0, 0), (2.0, 0.0, 5.0, 2)]
+        found = self.edges(corners, [(1, 2, 11), (5, 3, 12), (3, 4, 0), (4, 1, 14)])  # 2 and 5 are at one place
+        self.assertEqual(sorted(m for _, m in found), [0, 11, 12, 14])
+        self.assertIn((frozenset((0, 1)), 11), found)
+        node = (self.folder / "out.node").read_text().splitlines()
+        self.assertEqual(node[0], "5 3 0 1")
+        self.assertEqual([line.split()[-1] for line in node[1:5]], ["1", "2", "3", "0"])
+        pieces = self.edges([(*c[:3], 0) for c in corners[:4]], [(1, 2, 11), (2, 3, 12), (3, 4, 0), (4, 1, 14)], "", "--size", "0.5")
+        self.assertGreater(sum(m == 11 for _, m in pieces), 3)
+        self.assertEqual({m for _, m in pieces}, {0, 11, 12, 14})
+
+    def test_of_polygons_in_two_planes(self):
+        corners = [(0.0, 0.0, 0.0, 0), (1.0, 0.0, 0.0, 0), (1.0, 1.0, 0.0, 0), (0.0, 1.0, 0.0, 0), (1.0, 0.0, 1.0, 0), (1.0, 1.0, 1.0, 9)]
+        found = self.edges(corners, [(1, 2, 4), (2, 3, 5)], "Quadrilaterals 2\n1 2 3 4 0\n2 3 6 5 0\n")
+        self.assertEqual(len(found), 8)
+        self.assertEqual([m for e, m in found if e == frozenset((1, 2))], [5, 5])
+        self.assertEqual(sorted(m for _, m in found), [0] * 5 + [4, 5, 5])
+        self.assertEqual((self.folder / "out.node").read_text().splitlines()[6].split()[-1], "9")
+
+
 class Refined(CliTest):
     def refined(self, *options):
         self.run_program("plane", "in.poly", "-o", "out.off", "--report", "r.json", *options)
