@@ -207,7 +207,9 @@ class DxfReader {
       throw FileError(
           source_.path, "",
           "holds no faces (3DFACE, MESH, polyface or polygon mesh)" +
-              (names.empty() ? "" : ", but " + names + "; export its solids as meshes, or as STL"));
+              (names.empty() ? ""
+                             : ", but " + names +
+                                   "; export solids as meshes, or as STL, and outlines as .obj or .poly"));
     mesh_.leave_out(count, "entities without faces (" + names + ")", "entity without faces (" + names + ")");
   }
 

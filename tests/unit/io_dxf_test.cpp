@@ -85,8 +85,8 @@ TEST(DxfFile, ErrorsNameTheLine) {
   EXPECT_EQ(error("0\nEOF\n"), "no DXF: the file has no SECTION");
   EXPECT_EQ(error(lines("0 SECTION 2 ENTITIES")), "the file does not end with EOF; it is truncated");
   EXPECT_EQ(error(file(" 0 3DSOLID")),
-            "holds no faces (3DFACE, MESH, polyface or polygon mesh), but '3DSOLID'; export its "
-            "solids as meshes, or as STL");
+            "holds no faces (3DFACE, MESH, polyface or polygon mesh), but '3DSOLID'; export "
+            "solids as meshes, or as STL, and outlines as .obj or .poly");
   EXPECT_EQ(error(file(" 0 3DFACE 10 0 20 0 11 1 21 x 12 1")), "line 30: expected a number, found 'x'");
   EXPECT_EQ(error(file(" 0 3DFACE 10 0 20 0 11 1 21 0")), "line 22: a 3DFACE of 2 corners");
   EXPECT_EQ(error(file(" 0 POLYLINE 70 64" + kFace)),
