@@ -51,12 +51,12 @@ void note(const ImproveStats& stats, Report::Field& report) {
 
 // The share of the stage's work that every effort does.
 constexpr double kCommonWork = 0.6;
+constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
 
 // If facets force most bad elements, more elements hardly help; other meshers use about as many as the volume
 // takes without field points. Points are removed until kTimesThoseWithout times that many elements are left,
-// or as many as the user's sizes ask for. Points that pay are added again, up to kTimesThoseLeft times that
-// number.
-constexpr double kTimesThoseWithout = 1.25, kTimesThoseLeft = 1.08;
+// or as many as the user's sizes ask for. Points that pay are added again, up to that number.
+constexpr double kTimesThoseWithout = 1.25;
 double elements_left_of(const WithoutField& without) {
   return std::max(kTimesThoseWithout * static_cast<double>(without.elements()), without.elements_asked_for());
 }
@@ -112,17 +112,43 @@ struct Begun {
   std::optional<Figures> figures;  // if they are known
 };
 
+// A brief pass was too little. At first the complete one may add only so many points: without a limit it
+// makes up to twice as many elements, where few points do as well. Then points that pay follow; if these
+// close the gap, there is no need for more than after a brief pass.
+std::optional<Begun> begin_with_few_points(const Attempt& attempt, Field& field, Figures& now,
+                                           Report::Field& report) {
+  constexpr double kTimesThoseLeft = 1.08, kFurtherGrowth = 0.04;
+  const auto is_behind = [&] {
+    now = figures_of(field.volume(), attempt.threads);
+    return field.without->is_better_somewhere(now);
+  };
+  Extent few = Effort::fast;
+  few.most_growth = std::max(
+      0.0, kTimesThoseLeft * elements_left_of(*field.without) / static_cast<double>(now.elements()) - 1);
+  note(improve_in_parts(field.volume(), {}, few, attempt.threads, attempt.monitor), report);
+  if (!is_behind()) return Begun{false, now};
+  if (!field.without->is_within_reach(now)) return std::nullopt;
+  Extent further = Effort::good;
+  further.lowers_shares = true;
+  further.most_growth = kFurtherGrowth;
+  note(improve_further_in_parts(field.volume(), further, now, kNoProgress, attempt.threads, attempt.monitor),
+       report);
+  if (is_behind()) return std::nullopt;
+  return Begun{true, now};
+}
+
 // Field points must not make any figure worse than it is without them. A brief pass is completed first. If
 // the gap is small, more work may close it; otherwise the mesh without field points is taken, and gets only
 // points that improve their surroundings.
 Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, Field& field, bool was_brief,
                      Report& report) {
-  constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
   WithoutField& without = *field.without;
   if (!without.is_given()) return {was_brief, std::nullopt};
   Figures now = figures_of(field.volume(), attempt.threads);
   if (!without.is_better_somewhere(now)) return {was_brief, now};
   if (was_brief) {
+    if (const std::optional<Begun> begun = begin_with_few_points(attempt, field, now, report.field))
+      return *begun;
     note(improve_in_parts(field.volume(), {}, Effort::fast, attempt.threads, attempt.monitor), report.field);
     now = figures_of(field.volume(), attempt.threads);
     if (!without.is_better_somewhere(now)) return {false, now};
@@ -153,11 +179,8 @@ Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
   const auto elements = static_cast<double>(begun.figures->elements());
   const auto below_30_deg = static_cast<double>(begun.figures->below_30_deg());
   extent.lowers_shares = begun.was_brief || below_30_deg > kManySmall * elements;
-  const bool is_limited = field.is_limited();
-  const double least_growth = is_limited ? 0 : 0.02;
-  if (begun.was_brief || is_limited)
-    extent.most_growth =
-        std::max(least_growth, kTimesThoseLeft * elements_left_of(*field.without) / elements - 1);
+  if (begun.was_brief || field.is_limited())
+    extent.most_growth = std::max(0.0, elements_left_of(*field.without) / elements - 1);
   return extent;
 }
 

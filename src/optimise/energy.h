@@ -1,16 +1,17 @@
 // The energy of a tetrahedron. Improvement lowers the sum of the energies of a volume.
 //
 // The energy is q^-4. Below some q it is less steep, q^-2: otherwise elements forced by needles of the
-// surface would count for more than all elements that can be improved. Here q is the least sine of the six
-// dihedral angles. An obtuse angle counts for a little more than its sine: finite elements suffer only
-// somewhat less from large angles than from small ones, but users are shown the small ones. The sine of the
-// angle at edge e between faces of doubled areas m and n is |e| D / (m n), where D is six volumes (Freitag,
-// Ollivier-Gooch 1997; Klingner, Shewchuk 2007). The power makes a sum of energies follow the worst elements,
-// and yet see how many there are of each kind. With a metric, an element is measured in the frame of the mean
-// metric of its corners. A tetrahedron above a bound on volumes is as bad as one that is not positive.
+// surface would count for more than all elements that can be improved. With a saturation, it is even bounded
+// there: hardly any work is then done for elements that cannot become good anyway. Here q is the least sine
+// of the six dihedral angles. An obtuse angle counts for a little more than its sine: finite elements suffer
+// only somewhat less from large angles than from small ones, but users are shown the small ones. The sine of
+// the angle at edge e between faces of doubled areas m and n is |e| D / (m n), where D is six volumes
+// (Freitag, Ollivier-Gooch 1997; Klingner, Shewchuk 2007). The power makes a sum of energies follow the worst
+// elements, and yet see how many there are of each kind. With a metric, an element is measured in the frame
+// of the mean metric of its corners. A tetrahedron above a bound on volumes is as bad as one that is not
+// positive.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -26,12 +27,19 @@ inline constexpr double kNoEnergy = std::numeric_limits<double>::infinity();
 struct EnergyRule {
   double most = kNoEnergy;                       ///< the largest volume of an element, in sixths of a unit
   double hopeless_sine = tuning::kHopelessSine;  ///< q below which energies grow less steeply
+  /// If positive: below hopeless_sine, energies stay below 1 + 1 / saturation times the one there.
+  double saturation = 0;
+
+  [[nodiscard]] constexpr double hopeless_q2() const { return hopeless_sine * hopeless_sine; }
+  /// For hopeless elements the reciprocal of the energy is factor() * (q^2 + offset()).
+  [[nodiscard]] constexpr double factor() const { return hopeless_q2() / (1 + saturation); }
+  [[nodiscard]] constexpr double offset() const { return saturation * hopeless_q2(); }
 };
 
 /// The energy of an element whose least angle has this sine.
 [[nodiscard]] constexpr double energy_of_sine(double q, const EnergyRule& rule = {}) {
   const double q2 = q * q;
-  return 1 / (q2 * std::max(q2, rule.hopeless_sine * rule.hopeless_sine));
+  return 1 / (q2 < rule.hopeless_q2() ? rule.factor() * (q2 + rule.offset()) : q2 * q2);
 }
 
 /// Of one tetrahedron, or of two if Number is a Pair.
@@ -82,8 +90,9 @@ template <typename Number>
   lessen(ab, bd);
   const Number& least = ab;
   const Number q2 = volume * volume * least, infinite = Number{} + kNoEnergy;
-  const Number least_q2 = Number{} + rule.hopeless_sine * rule.hopeless_sine;
-  const Number e = 1 / (q2 * (q2 < least_q2 ? least_q2 : q2)), of_positive = e < infinite ? e : infinite;
+  const Number hopeless_q2 = Number{} + rule.hopeless_q2(), squared = q2 * q2;
+  const Number of_hopeless = (Number{} + rule.factor()) * (q2 + (Number{} + rule.offset()));
+  const Number e = 1 / (q2 < hopeless_q2 ? of_hopeless : squared), of_positive = e < infinite ? e : infinite;
   const Number of_small = volume > rule.most ? infinite : of_positive;
   result = volume > 0 ? of_small : infinite;
 }

@@ -11,13 +11,16 @@
 namespace holdfast {
 namespace {
 
+// Part of the elements that points may add beyond the limit on growth in patient rounds.
+constexpr double kPartForTheWorst = 0.01;
+
 class Improver {
  public:
   Improver(const VolumeData& volume, const tuning::Passes& passes, std::span<const std::uint8_t> spared,
            std::span<const std::uint8_t> fresh, Monitor& monitor)
       : mesh_(volume.mesh),
-        volume_(volume, fresh, Threads(1).polling([&monitor] { monitor.poll_again(); }),
-                passes.hopeless_sine),
+        volume_(volume, fresh, Threads(1).polling([&monitor] { monitor.poll_again(); }), passes.hopeless_sine,
+                passes.saturation),
         passes_(passes),
         spared_(spared),
         monitor_(monitor),
@@ -40,7 +43,9 @@ class Improver {
     std::size_t inside = 0;
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (volume_.is_inside(t)) ++inside;
-    most_tets_ = tets() + part * static_cast<double>(inside);
+    const auto now = static_cast<double>(inside);
+    most_tets_ = tets() + part * now;
+    for_the_worst_ = kPartForTheWorst * now;
   }
   /// Progress is reported as this part of the stage's progress.
   void tell_as(std::array<double, 2> work) { work_ = work; }
@@ -76,7 +81,8 @@ class Improver {
     if (passes_.aim_of_mild > 0) work_on_mild_ones();
     if (passes_.first != First::the_worst)
       work_on_single_ones(passes_.aim, work(passes_.share_of_the_worst), First::the_worst, Patience::usual);
-    // The very worst are few: they get as many rounds as help.
+    // The very worst are few: they get as many rounds as help, and points of their own.
+    most_tets_ += for_the_worst_;
     volume_.judge_by(tuning::kHopelessSine);
     volume_.touch_all();
     for (int round = 0; round < passes_.patient_rounds * passes_.rounds; ++round) {
@@ -238,7 +244,7 @@ class Improver {
   EnergyWays ways_;
   Thinner thinner_;
   const std::size_t most_inserted_;
-  double least_tets_ = 0, most_tets_ = std::numeric_limits<double>::infinity();
+  double least_tets_ = 0, most_tets_ = std::numeric_limits<double>::infinity(), for_the_worst_ = 0;
   std::array<double, 2> stage_{}, work_{0, 1};
   bool is_brief_ = false;
   ImproveStats stats_;
@@ -250,6 +256,7 @@ ImproveStats improve(const VolumeData& volume, Extent extent, Monitor& monitor,
                      std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
   Improver improver(volume, tuning::passes_of(extent.effort), spared, fresh, monitor);
   if (extent.is_brief) improver.be_brief(extent.least_part);
+  if (extent.most_growth < std::numeric_limits<double>::infinity()) improver.grow_at_most(extent.most_growth);
   return improver.run();
 }
 

@@ -128,6 +128,7 @@ struct Passes {
   double most_shares = 10;
   bool points_must_pay = false;  ///< measured by the shares of elements with small angles
   double hopeless_sine = kHopelessSine;
+  double saturation = 0;   ///< of hopeless elements (energy.h), but in patient rounds
   int patient_rounds = 3;  ///< factor for the rounds: the very worst are few and get all that help
   /// After the rounds, elements below this are worked on, too, the mildest first: little work moves many of
   /// them out of the shares of small angles.
@@ -159,11 +160,9 @@ inline constexpr Brief kBrief;
 [[nodiscard]] constexpr Passes further_passes_of(Effort effort, bool lowers_shares) {
   if (effort != Effort::good) return passes_of(effort);
   Passes passes{0, 0.45, 0.50, 0.36, 0.24, 1, First::the_mildest, 1, 0.02};
-  if (!lowers_shares) {
-    passes.aim_of_mild = 0.5;  // 30 degrees
-    passes.work_of_mild_per_tet = 0.03;
-    return passes;
-  }
+  passes.aim_of_mild = 0.5;  // 30 degrees
+  passes.work_of_mild_per_tet = 0.03;
+  if (!lowers_shares) return passes;
   passes.aim = 0.46;  // 27 degrees
   passes.rounds = 3;
   passes.work_per_tet = 1;
@@ -173,6 +172,7 @@ inline constexpr Brief kBrief;
   passes.points_must_pay = true;
   passes.patient_rounds = 2;
   passes.hopeless_sine = 0.3;  // 17 degrees: elements below hardly ever leave a share
+  passes.saturation = 0.1;
   return passes;
 }
 inline constexpr int kMostPasses = 6;    ///< while many elements are bad, because passes improve these faster
@@ -185,7 +185,7 @@ inline constexpr double kSineWorthAPoint = 0.42;   ///< 25 degrees; no element a
 struct WeightBelow {
   double sine, weight;
 };
-inline constexpr std::array<WeightBelow, 3> kWeightBelow{{{0.1736, 0.7}, {0.342, 1}, {0.5, 1}}};
+inline constexpr std::array<WeightBelow, 3> kWeightBelow{{{0.1736, 1}, {0.342, 1}, {0.5, 1}}};
 inline constexpr double kWeightThatPays = 0.5;        ///< of an additional element
 inline constexpr double kPartOfVolumeThatPays = 0.7;  ///< part of the weight, by volume, that may remain
 // Points that are removed again, by how much more the elements beside them weigh for each removed element.

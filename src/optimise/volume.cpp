@@ -10,11 +10,11 @@ constexpr Tet kTetsALook = 1 << 16;  // some milliseconds
 }  // namespace
 
 ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh,
-                               const Threads& threads, double hopeless_sine)
+                               const Threads& threads, double hopeless_sine, double saturation)
     : data_(data),
       mesh_(data.mesh),
       region_of_(data.region_of),
-      rule_{.most = kNoEnergy, .hopeless_sine = hopeless_sine} {
+      rule_{.most = kNoEnergy, .hopeless_sine = hopeless_sine, .saturation = saturation} {
   const auto slots = static_cast<Tet>(mesh_.slot_count());
   energy_.assign(slots, 0);
   compute_energies(threads);
@@ -32,7 +32,9 @@ ImprovedVolume::ImprovedVolume(const VolumeData& data, std::span<const std::uint
 }
 
 void ImprovedVolume::judge_by(double hopeless_sine) {
-  if (std::exchange(rule_.hopeless_sine, hopeless_sine) != hopeless_sine) compute_energies(Threads(1));
+  const bool is_saturated = std::exchange(rule_.saturation, 0) > 0;
+  if (std::exchange(rule_.hopeless_sine, hopeless_sine) != hopeless_sine || is_saturated)
+    compute_energies(Threads(1));
 }
 
 void ImprovedVolume::compute_energies(const Threads& threads) {
@@ -116,7 +118,7 @@ Figures ImprovedVolume::figures(std::span<const TetMesh::Corners> tets) const {
 // A frame does not preserve volumes.
 double ImprovedVolume::energy_in_frame(const TetMesh::Corners& c) const {
   if (rule_.most < kNoEnergy && six_volumes(mesh_, c) > rule_.most) return kNoEnergy;
-  const EnergyRule rule{kNoEnergy, rule_.hopeless_sine};
+  const EnergyRule rule{kNoEnergy, rule_.hopeless_sine, rule_.saturation};
   return data_.see(c, [&rule](const Point& p, const Point& q, const Point& r, const Point& s) {
     return holdfast::energy<double>(p, q, r, s, rule);
   });

@@ -24,7 +24,8 @@ class ImprovedVolume {
   /// vertices that `fresh` marks, or with numbers beyond its end, count as changed. Energies grow less
   /// steeply below the hopeless sine.
   explicit ImprovedVolume(const VolumeData& data, std::span<const std::uint8_t> fresh = {},
-                          const Threads& threads = 1, double hopeless_sine = tuning::kHopelessSine);
+                          const Threads& threads = 1, double hopeless_sine = tuning::kHopelessSine,
+                          double saturation = 0);
 
   [[nodiscard]] TetMesh& mesh() { return mesh_; }
   [[nodiscard]] const TetMesh& mesh() const { return mesh_; }
@@ -35,11 +36,11 @@ class ImprovedVolume {
 
   /// From now on, elements are judged as those of the region of t: by the most that these may measure.
   void turn_to(Tet t) { turn_to_region(region_of_[t]); }
-  /// From now on, energies grow less steeply below that sine.
+  /// From now on, energies grow less steeply below that sine, without a bound.
   void judge_by(double hopeless_sine);
   /// For elements that are seen in a frame, where a bound on volumes means nothing unless it is plain.
   [[nodiscard]] EnergyRule rule_in(const Frame& frame) const {
-    return {frame.is_plain() ? rule_.most : kNoEnergy, rule_.hopeless_sine};
+    return {frame.is_plain() ? rule_.most : kNoEnergy, rule_.hopeless_sine, rule_.saturation};
   }
   [[nodiscard]] double energy_of_sine(double q) const { return holdfast::energy_of_sine(q, rule_); }
 

@@ -44,6 +44,8 @@ TEST(Energy, IsOfTheLeastAngle) {
     EXPECT_NEAR(e / energy_of_sine(least), 1, 1e-5);
     const EnergyRule early{.hopeless_sine = 0.4};
     EXPECT_NEAR(energy<double>(p[0], p[1], p[2], p[3], early) / energy_of_sine(least, early), 1, 1e-5);
+    const EnergyRule bounded{.hopeless_sine = 0.4, .saturation = 0.1};
+    EXPECT_NEAR(energy<double>(p[0], p[1], p[2], p[3], bounded) / energy_of_sine(least, bounded), 1, 1e-5);
   }
 }
 
@@ -53,6 +55,15 @@ TEST(Energy, GrowsLessBelowTheHopelessSine) {
   EXPECT_EQ(energy_of_sine(0.5, early), energy_of_sine(0.5));
   EXPECT_NEAR(energy_of_sine(0.2, early) / energy_of_sine(0.4, early), 4, 1e-12);
   EXPECT_NEAR(energy_of_sine(0.2) / energy_of_sine(0.4), 16, 1e-12);
+}
+
+// The energy still tells which of two hopeless elements is worse.
+TEST(Energy, IsBoundedForHopelessElementsIfSaturated) {
+  const EnergyRule bounded{.hopeless_sine = 0.4, .saturation = 0.1};
+  EXPECT_EQ(energy_of_sine(0.5, bounded), energy_of_sine(0.5));
+  EXPECT_NEAR(energy_of_sine(0.4 - 1e-12, bounded) / energy_of_sine(0.4), 1, 1e-9);
+  EXPECT_NEAR(energy_of_sine(0, bounded) / energy_of_sine(0.4), 11, 1e-9);
+  EXPECT_GT(energy_of_sine(0.01, bounded), energy_of_sine(0.02, bounded));
 }
 
 TEST(Shape, ANeedleIsNotFlat) {
@@ -234,6 +245,19 @@ TEST(Improve, AddsNoPointsBeyondTheGrowthThatIsAllowed) {
   EXPECT_LT(little, much);
 }
 
+// The same for the first work on a volume.
+TEST(Improve, BeginsWithNoPointsBeyondTheGrowthThatIsAllowed) {
+  const auto inserted = [](double most_growth) {
+    return of_standing_slivers(1000, [&](const VolumeData& volume, Monitor& monitor) {
+      Extent extent = Effort::fast;
+      extent.most_growth = most_growth;
+      return improve(volume, extent, monitor).inserted;
+    });
+  };
+  EXPECT_EQ(inserted(-0.9), 0u);
+  EXPECT_GT(inserted(1), 0u);
+}
+
 // Over all elements: their number below 10, 20 and 30 degrees, weighted, over what elements may weigh; and
 // the same by volume.
 std::array<double, 2> burden_of(const TetMesh& mesh, const ImprovedVolume& volume) {
@@ -241,7 +265,7 @@ std::array<double, 2> burden_of(const TetMesh& mesh, const ImprovedVolume& volum
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
     if (!volume.is_inside(t)) continue;
     const double e = volume.energy(t);
-    const double weight = 0.7 * (e > energy_of_sine(0.1736)) + (e > energy_of_sine(0.342)) + (e > 16);
+    const double weight = (e > energy_of_sine(0.1736)) + (e > energy_of_sine(0.342)) + (e > 16);
     sum[0] += weight - 0.5;
     sum[1] += weight * six_volumes(mesh, mesh.corners(t));
   }
@@ -262,10 +286,14 @@ TEST(ImprovedVolume, IsJudgedByAnotherSineFromThenOn) {
     if (early.energy(t) < usual.energy(t)) ++less;
   }
   EXPECT_GT(less, 10u);
+  ImprovedVolume bounded(data, {}, 1, tuning::kHopelessSine, 0.1);
+  EXPECT_LT(bounded.energy_of_sine(0.1), energy_of_sine(0.1));
+  bounded.judge_by(tuning::kHopelessSine);
   volume.judge_by(tuning::kHopelessSine);
   EXPECT_EQ(volume.energy_of_sine(0.1), energy_of_sine(0.1));
   for (Tet t = 0; t < mesh.slot_count(); ++t) {
     EXPECT_EQ(volume.energy(t), usual.energy(t));
+    EXPECT_EQ(bounded.energy(t), usual.energy(t));
     if (volume.is_inside(t)) {
       EXPECT_EQ(volume.energy_of(mesh.corners(t)), usual.energy(t));
     }
