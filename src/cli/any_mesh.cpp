@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "files.h"
 #include "holdfast/surface_io.h"
 
 namespace holdfast::cli {
@@ -13,10 +14,6 @@ namespace fs = std::filesystem;
 /// The format's name with its dot, in lower case.
 std::string format_of(const fs::path& path, const std::string& format) {
   return volume_format_of(path.extension() == ".gz" ? path.parent_path() / path.stem() : path, format);
-}
-
-bool is_one_of(const std::vector<std::string>& formats, const std::string& format) {
-  return std::find(formats.begin(), formats.end(), format) != formats.end();
 }
 
 bool can_be_read_again(const fs::path& path) {

@@ -40,6 +40,10 @@ std::vector<Surface> read_parts(const std::vector<fs::path>& paths, const ReadOp
   return parts;
 }
 
+bool is_one_of(const std::vector<std::string>& formats, const std::string& format) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
 std::vector<std::string> stems(const std::vector<fs::path>& paths) {
   std::vector<std::string> names;
   std::transform(paths.begin(), paths.end(), std::back_inserter(names), stem);

@@ -19,6 +19,9 @@ namespace holdfast::cli {
 [[nodiscard]] std::vector<Surface> read_parts(const std::vector<std::filesystem::path>& paths,
                                               const ReadOptions& options, bool of_volumes = false);
 
+/// Whether a list of formats has this one.
+[[nodiscard]] bool is_one_of(const std::vector<std::string>& formats, const std::string& format);
+
 /// The names of files without their folders and endings.
 [[nodiscard]] std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths);
 

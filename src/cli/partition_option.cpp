@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "command.h"
@@ -17,10 +16,6 @@ namespace {
 
 /// Up to this number of pieces, files named later are compared with each of them.
 constexpr std::size_t kNamedEach = 1000;
-
-bool is_listed(const std::vector<std::string>& formats, const std::string& format) {
-  return std::find(formats.begin(), formats.end(), format) != formats.end();
-}
 
 }  // namespace
 
@@ -40,7 +35,7 @@ VolumeTarget target_of_pieces(FilesOfRun& files, std::string_view option, const 
   target.options.format = std::move(format);
   const std::string kind = format_of(target);
   target.options.format = kind;
-  if (!is_listed(piece_formats(), kind))
+  if (!is_one_of(piece_formats(), kind))
     throw UsageError(fmt::format(
         "{}: {} not written in pieces; use {} as the file's ending or by --format", path.string(),
         kind.empty() ? "a file without an ending is" : "'" + kind + "' is", fmt::join(piece_formats(), " ")));
@@ -84,7 +79,7 @@ void write_partition(const VolumeTarget& target, std::size_t pieces, const Volum
 
 void tell_not_held_by_pieces(const VolumeTarget& target, const Volume& volume) {
   // The loss does not depend on pieces. A format that only has pieces loses nothing.
-  if (is_listed(volume_formats(), format_of(target)))
+  if (is_one_of(volume_formats(), format_of(target)))
     tell(not_held(target.path, volume, target.options), target.path);
 }
 
