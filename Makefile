@@ -190,8 +190,7 @@ asan: setup  ## the tests under the address and undefined behaviour sanitizers
 
 tsan: setup  ## what runs on several threads, under the thread sanitizer
 	@cmake --preset tsan
-	@cmake --build build/tsan -j $(JOBS) --target delaunay_threads_test delaunay_test surface_threads_test \
-	  parts_test field_threads_test parallel_test in_place_parts_test optimise_walking_test
+	@cmake --build build/tsan -j $(JOBS) --target mesh_tests recover_tests refine_tests optimise_tests property_tests
 	@HOLDFAST_CORPUS=none ctest --preset tsan -j $(JOBS) \
 	  -R '^(Threads|Parallel|Delaunay|DelaunayThreads|SurfaceThreads|Parts|TasksInParts|ImproveInParts|InPlaceParts|SearchInParts|ForcedApex|FieldThreads(Stop|Monitor))\.|FieldThreads.*/sphere'
 

@@ -7,7 +7,7 @@
 
 #include "unit/check_cases.h"
 
-namespace holdfast::check_cases {
+namespace holdfast::check_cases::check_garbage_test {
 namespace {
 
 /// Random surfaces and volumes, each part of which may be wrong in its own way.
@@ -91,4 +91,4 @@ TEST(CheckOfGarbage, Answers) {
 }
 
 }  // namespace
-}  // namespace holdfast::check_cases
+}  // namespace holdfast::check_cases::check_garbage_test

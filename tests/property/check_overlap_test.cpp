@@ -8,7 +8,7 @@
 
 #include "unit/check_cases.h"
 
-namespace holdfast::check_cases {
+namespace holdfast::check_cases::check_overlap_test {
 namespace {
 
 using Vector = std::array<int, 3>;
@@ -264,4 +264,4 @@ TEST(CheckAgainstOracle, RegionsAndVoidsAreCounted) {
 }
 
 }  // namespace
-}  // namespace holdfast::check_cases
+}  // namespace holdfast::check_cases::check_overlap_test

@@ -15,7 +15,7 @@
 #include "delaunay/order.h"
 #include "delaunay_checks.h"
 
-namespace holdfast {
+namespace holdfast::delaunay_degenerate_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -261,4 +261,4 @@ TEST(DelaunayDegenerate, OneOfManyCosphericalPointsIsACornerOfAllTetrahedra) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::delaunay_degenerate_test

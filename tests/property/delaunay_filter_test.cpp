@@ -12,7 +12,7 @@
 #include "exact/predicates.h"
 #include "holdfast/types.h"
 
-namespace holdfast {
+namespace holdfast::delaunay_filter_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -162,4 +162,4 @@ TEST(DelaunayFilter, RightAtTheEndsOfTheRange) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::delaunay_filter_test

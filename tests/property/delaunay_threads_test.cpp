@@ -13,7 +13,7 @@
 #include "delaunay/number.h"
 #include "delaunay_checks.h"
 
-namespace holdfast {
+namespace holdfast::delaunay_threads_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -161,4 +161,4 @@ TEST(DelaunayThreads, AnyOrderOfInsertionGivesTheSameTriangulation) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::delaunay_threads_test

@@ -11,7 +11,7 @@
 #include "mesh/kernel.h"
 #include "mesh_fixtures.h"
 
-namespace holdfast {
+namespace holdfast::double_in_kernel_test {
 namespace {
 
 using namespace testing;
@@ -203,4 +203,4 @@ TEST(DoubleInKernel, AtTheGreatestDouble) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::double_in_kernel_test

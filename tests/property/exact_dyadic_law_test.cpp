@@ -3,7 +3,7 @@
 
 #include "exact_reference.h"
 
-namespace holdfast::exact::test {
+namespace holdfast::exact::test::exact_dyadic_law_test {
 namespace {
 
 /// A random value: few or many bits, any exponent, often next to a tie between two doubles.
@@ -84,4 +84,4 @@ TEST(DyadicLaw, ArithmeticEqualsRational) {
 }
 
 }  // namespace
-}  // namespace holdfast::exact::test
+}  // namespace holdfast::exact::test::exact_dyadic_law_test

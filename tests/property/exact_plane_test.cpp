@@ -13,7 +13,7 @@
 #include "holdfast/names.h"
 #include "plane_inputs.h"
 
-namespace holdfast {
+namespace holdfast::exact_plane_test {
 namespace {
 
 using boost::multiprecision::cpp_rational;
@@ -353,4 +353,4 @@ TEST(ExactPlane, GivesSinglePolygonsTheirTriangles) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::exact_plane_test

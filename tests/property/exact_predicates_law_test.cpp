@@ -10,7 +10,7 @@
 #include "exact/tiers.h"
 #include "exact_reference.h"
 
-namespace holdfast::exact::test {
+namespace holdfast::exact::test::exact_predicates_law_test {
 namespace {
 
 using detail::Tier;
@@ -380,4 +380,4 @@ TEST(PointLaw, DifferenceIsAccurate) {
 }
 
 }  // namespace
-}  // namespace holdfast::exact::test
+}  // namespace holdfast::exact::test::exact_predicates_law_test

@@ -10,7 +10,7 @@
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 
-namespace holdfast {
+namespace holdfast::field_promise_test {
 namespace {
 
 struct Family {
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(RandomComplexes, FieldPromise, ::testing::ValuesIn(kFam
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::field_promise_test

@@ -12,7 +12,7 @@
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 
-namespace holdfast {
+namespace holdfast::field_threads_test {
 namespace {
 
 struct Family {
@@ -153,4 +153,4 @@ TEST(FieldThreadsStop, AFunctionThatAllowsItIsCalledOnAllThreadsAndMakesNoDiffer
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::field_threads_test

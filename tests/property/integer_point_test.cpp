@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace holdfast::exact {
+namespace holdfast::exact::integer_point_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -152,4 +152,4 @@ TEST(IntegerPoint, OfANeedle) {
 }
 
 }  // namespace
-}  // namespace holdfast::exact
+}  // namespace holdfast::exact::integer_point_test

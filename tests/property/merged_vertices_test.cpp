@@ -11,7 +11,7 @@
 #include "property/surface_truth.h"
 #include "split_vertices.h"
 
-namespace holdfast {
+namespace holdfast::merged_vertices_test {
 namespace {
 
 using split::Joined;
@@ -187,4 +187,4 @@ TEST(MergedDefects, AreThoseOfTheComplexWithEachPlaceOnce) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::merged_vertices_test

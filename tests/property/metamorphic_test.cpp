@@ -14,7 +14,7 @@
 #include "number_range_surfaces.h"
 #include "small_surfaces.h"
 
-namespace holdfast {
+namespace holdfast::metamorphic_test {
 namespace {
 
 // x becomes scale * x with its axes permuted and some reflected, then moved.
@@ -207,4 +207,4 @@ TEST(Metamorphic, UntanglingAmongTheDenormals) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::metamorphic_test

@@ -9,7 +9,7 @@
 #include "holdfast/check.h"
 #include "number_range_surfaces.h"
 
-namespace holdfast {
+namespace holdfast::number_range_test {
 namespace {
 
 using number_range::Case;
@@ -72,4 +72,4 @@ TEST(NumberRange, CubeInLeastDoubles) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::number_range_test

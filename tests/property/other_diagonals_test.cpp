@@ -15,7 +15,7 @@
 #include "surface/elements.h"
 #include "surface/search.h"
 
-namespace holdfast {
+namespace holdfast::other_diagonals_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -162,4 +162,4 @@ TEST(OtherDiagonals, PiercedOnesAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::other_diagonals_test

@@ -7,7 +7,7 @@
 #include "holdfast/names.h"
 #include "plane_inputs.h"
 
-namespace holdfast {
+namespace holdfast::plane_refine_test {
 namespace {
 
 using testing::fault_of;
@@ -208,4 +208,4 @@ TEST(PlaneRefinement, RefusesWhatItCannotMean) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::plane_refine_test

@@ -14,7 +14,7 @@
 #include "plane/vertex_set.h"
 #include "plane_inputs.h"
 
-namespace holdfast {
+namespace holdfast::plane_test {
 namespace {
 
 using testing::Coordinates;
@@ -260,4 +260,4 @@ TEST(Sequence, KeepsAnOrder) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::plane_test

@@ -14,7 +14,7 @@
 #include "holdfast/check.h"
 #include "holdfast/holdfast.h"
 
-namespace holdfast {
+namespace holdfast::promise_test {
 namespace {
 
 struct Family {
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(RandomComplexes, Promise,
                          });
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::promise_test

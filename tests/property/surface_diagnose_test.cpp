@@ -16,7 +16,7 @@
 #include "surface/complex.h"
 #include "surface/diagnose.h"
 
-namespace holdfast {
+namespace holdfast::surface_diagnose_test {
 namespace {
 
 using oracle::ElementKey;
@@ -267,4 +267,4 @@ TEST(SurfaceDiagnose, IdenticalVertices) { check_many({2, 2, 2, 9, 4, 2, true}, 
 TEST(SurfaceDiagnose, IsolatedVertices) { check_many({3, 3, 3, 14, 2, 1, false}, 1500); }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::surface_diagnose_test

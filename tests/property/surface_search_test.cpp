@@ -17,7 +17,7 @@
 #include "surface/search.h"
 #include "surface/sheet_pairs.h"
 
-namespace holdfast {
+namespace holdfast::surface_search_test {
 namespace {
 
 using Random = std::mt19937_64;
@@ -540,4 +540,4 @@ TEST(Hubs, DirectionsOfMeetingElementsOverlap) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::surface_search_test

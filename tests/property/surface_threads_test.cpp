@@ -13,7 +13,7 @@
 #include "surface/complex.h"
 #include "surface/diagnose.h"
 
-namespace holdfast {
+namespace holdfast::surface_threads_test {
 namespace {
 
 // A bumpy sheet of 2 n^2 triangles.
@@ -110,4 +110,4 @@ TEST(SurfaceThreads, TreeOfManyThreadsAndItsDivision) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::surface_threads_test

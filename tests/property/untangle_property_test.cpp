@@ -15,7 +15,7 @@
 #include "holdfast/check.h"
 #include "holdfast/untangle.h"
 
-namespace holdfast {
+namespace holdfast::untangle_property_test {
 namespace {
 
 struct Family {
@@ -141,4 +141,4 @@ INSTANTIATE_TEST_SUITE_P(Families, Untangled, ::testing::ValuesIn(kFamilies),
                          [](const auto& family) { return family.param.name; });
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::untangle_property_test

@@ -65,7 +65,7 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { r
 void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
 void operator delete[](void* memory, const std::nothrow_t&) noexcept { release(memory); }
 
-namespace holdfast {
+namespace holdfast::allocation_test {
 namespace {
 
 constexpr long kMostRuns = 400;
@@ -194,4 +194,4 @@ TEST(Allocation, OfFiles) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::allocation_test

@@ -39,7 +39,7 @@ void* operator new[](std::size_t size) { return operator new(size); }
 void operator delete[](void* p) noexcept { operator delete(p); }
 void operator delete[](void* p, std::size_t) noexcept { operator delete(p); }
 
-namespace holdfast {
+namespace holdfast::arrange_memory_test {
 namespace {
 
 Surface noise(std::size_t triangles) {
@@ -69,4 +69,4 @@ TEST(ArrangeMemory, IsBoundedByTheNumberOfTriangles) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::arrange_memory_test

@@ -36,7 +36,7 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace holdfast {
+namespace holdfast::attempts_test {
 namespace {
 
 // A surface without a mesh in doubles, so that every attempt is made.
@@ -165,4 +165,4 @@ TEST(Attempts, ProgressNeverGoesBack) {
 }
 
 }  // namespace
-}  // namespace holdfast
+}  // namespace holdfast::attempts_test

@@ -81,7 +81,7 @@ inline Triangle sorted(Triangle t) {
 }
 
 /// The surface that a volume fills: faces of only one tetrahedron, and faces between different ids.
-inline Surface surface_of(const Volume& volume) {
+inline Surface boundary_of(const Volume& volume) {
   std::map<Triangle, std::vector<int>> ids;
   for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i) {
     const Tetrahedron& t = volume.tetrahedra[i];
@@ -98,7 +98,7 @@ inline Surface surface_of(const Volume& volume) {
 
 inline Case filled(Volume volume) {
   Case c;
-  c.surface = surface_of(volume);
+  c.surface = boundary_of(volume);
   c.volume = std::move(volume);
   return c;
 }
@@ -125,7 +125,7 @@ inline void exchange(Volume& volume, Index x, Index y) {
 inline Case with_steiner() {
   Case c = grid({2, 2, 2});
   exchange(c.volume, vertex_at(c.volume, {1, 1, 1}), static_cast<Index>(c.volume.vertices.size() - 1));
-  c.surface = surface_of(c.volume);
+  c.surface = boundary_of(c.volume);
   c.surface.vertices.pop_back();
   return c;
 }

@@ -1,0 +1,116 @@
+// Faces of AutoCAD's DXF.
+#include <gtest/gtest.h>
+
+#include "io_samples.h"
+
+namespace holdfast::io_dxf_test {
+namespace {
+
+using namespace samples;
+
+Surface surface(const std::string& bytes) {
+  const TemporaryFolder folder;
+  put(folder / "a.dxf", bytes);
+  return read_surface(folder / "a.dxf");
+}
+std::string error(const std::string& bytes) {
+  return refusal_of([&] { return surface(bytes); });
+}
+
+/// Groups on lines of their own, from words: "0 LINE 8 layer".
+std::string lines(const std::string& words) {
+  std::string result;
+  for (const char c : words) result += c == ' ' ? '\n' : c;
+  return result + "\n";
+}
+std::string file(const std::string& entities, const std::string& blocks = "") {
+  return lines("0 SECTION 2 HEADER 9 $ACADVER 1 AC1009 0 ENDSEC 0 SECTION 2 BLOCKS" + blocks +
+               " 0 ENDSEC 0 SECTION 2 ENTITIES" + entities + " 0 ENDSEC 0 EOF");
+}
+const std::string kFace = " 0 3DFACE 8 wall 10 0 20 0 30 0 11 1 21 0 31 0 12 0 22 1 32 0 13 0 23 1 33 0";
+
+TEST(DxfFile, FacesOfLayers) {
+  const Surface read = surface(file(kFace + " 0 3DFACE 8 roof 10 0 20 0 30 1 11 1 21 0 31 1 12 1 22 1 32 1 "
+                                            "13 0 23 1 33 1 70 5 0 LINE 8 wall 10 0 20 0"));
+  EXPECT_EQ(read.facets.size(), 3U);
+  EXPECT_EQ(read.facet_markers, (std::vector<int>{1, 2, 2}));
+  EXPECT_EQ(read.names.facets, (std::map<int, std::string>{{1, "wall"}, {2, "roof"}}));
+  EXPECT_EQ(read.vertices.size(), 7U);
+  EXPECT_EQ(read.remarks.front().message, "1 entity without faces ('LINE') is left out");
+  const Surface one = surface(file(kFace));
+  EXPECT_TRUE(one.facet_markers.empty());
+  EXPECT_EQ(one.names.facets, (std::map<int, std::string>{{0, "wall"}}));
+}
+
+TEST(DxfFile, PolyfacePolygonMeshAndMesh) {
+  const std::string polyface =
+      " 0 POLYLINE 8 0 66 1 70 64 71 4 72 2 0 VERTEX 70 192 10 0 20 0 30 0 0 VERTEX 70 192 10 1 20 0 30 0 0 "
+      "VERTEX 70 192 "
+      "10 1 20 1 30 0 0 VERTEX 70 192 10 0 20 1 30 0 0 VERTEX 70 128 71 1 72 2 73 -3 0 VERTEX 70 128 71 -1 "
+      "72 3 73 4 74 0 "
+      "0 SEQEND";
+  EXPECT_EQ(surface(file(polyface)).facets, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  std::string grid = " 0 POLYLINE 8 0 66 1 70 48 71 2 72 3";  // closed in columns
+  for (const char* p : {"0 20 0", "1 20 0", "0 20 1", "0 20 0 30 2", "1 20 0 30 2", "0 20 1 30 2"})
+    grid += std::string(" 0 VERTEX 70 64 10 ") + p;
+  EXPECT_EQ(surface(file(grid + " 0 SEQEND")).facets.size(), 6U);
+  EXPECT_EQ(surface(file(" 0 MESH 8 0 91 0 92 4 10 0 20 0 30 0 10 1 20 0 30 0 10 0 20 1 30 0 10 0 20 0 30 1 "
+                         "93 8 90 3 90 0 "
+                         "90 2 90 1 90 3 90 0 90 1 90 3 94 1 90 0 90 1"))
+                .facets,
+            (std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}}));
+}
+
+TEST(DxfFile, BlocksAreCopied) {
+  const std::string block =
+      " 0 BLOCK 8 0 2 B 10 1 20 0 30 0 0 3DFACE 8 0 10 1 20 0 30 0 11 2 21 0 31 0 12 1 22 1 32 0 0 "
+      "3DFACE 8 own 10 1 20 0 30 1 11 2 21 0 31 1 12 1 22 1 32 1 0 ENDBLK";
+  const Surface read = surface(
+      file(" 0 INSERT 8 left 2 B 10 5 20 0 30 0 0 INSERT 8 right 2 B 10 0 20 7 30 0 41 2 42 2 43 -2 50 90",
+           block));
+  ASSERT_EQ(read.facets.size(), 4U);
+  EXPECT_EQ(read.facet_markers, (std::vector<int>{2, 1, 3, 1}));
+  EXPECT_EQ(read.names.facets, (std::map<int, std::string>{{1, "own"}, {2, "left"}, {3, "right"}}));
+  EXPECT_EQ(read.vertices[1], (Point{6, 0, 0}));
+  EXPECT_EQ(read.vertices[7], (Point{0, 9, 0}));   // turned and doubled
+  EXPECT_EQ(read.facets[2], (Triangle{6, 8, 7}));  // mirrored
+  EXPECT_EQ(read.vertices[9], (Point{0, 7, -2}));
+  EXPECT_EQ(surface(file(" 0 INSERT 2 B 70 3 71 2 44 4 45 5", block)).facets.size(), 12U);
+}
+
+TEST(DxfFile, ErrorsNameTheLine) {
+  EXPECT_EQ(error("AutoCAD Binary DXF\r\n\x1a"), "a binary DXF; save it as text");
+  EXPECT_EQ(error("hello\n"), "line 1: expected the code of a group, found 'hello'");
+  EXPECT_EQ(error("0\n"), "line 2: the file ends where the value of a group is expected; it is truncated");
+  EXPECT_EQ(error("0\nEOF\n"), "no DXF: the file has no SECTION");
+  EXPECT_EQ(error(lines("0 SECTION 2 ENTITIES")), "the file does not end with EOF; it is truncated");
+  EXPECT_EQ(error(file(" 0 3DSOLID")),
+            "holds no faces (3DFACE, MESH, polyface or polygon mesh), but '3DSOLID'; export "
+            "solids as meshes, or as STL, and outlines as .obj or .poly");
+  EXPECT_EQ(error(file(" 0 3DFACE 10 0 20 0 11 1 21 x 12 1")), "line 30: expected a number, found 'x'");
+  EXPECT_EQ(error(file(" 0 3DFACE 10 0 20 0 11 1 21 0")), "line 22: a 3DFACE of 2 corners");
+  EXPECT_EQ(error(file(" 0 POLYLINE 70 64" + kFace)),
+            "line 22: the POLYLINE has no SEQEND; the file is truncated or damaged");
+  EXPECT_EQ(error(file(" 0 POLYLINE 70 64 0 VERTEX 70 128 71 1 72 2 73 3 0 SEQEND")),
+            "line 26: a face names a vertex that is not among the 0 before it");
+  EXPECT_EQ(error(file(" 0 POLYLINE 70 64 0 VERTEX 70 128 71 -9223372036854775808 0 SEQEND")),
+            "line 26: a face of the vertex -9223372036854775808");
+  EXPECT_EQ(error(file(" 0 POLYLINE 70 16 71 2 72 30000 0 SEQEND")),
+            "line 22: a polygon mesh of 2 times 30000 points, but with 0");
+  EXPECT_EQ(error(file(" 0 MESH 93 2 90 4000000000 90 1")),
+            "line 22: a face of 4000000000 corners in a MESH");
+  EXPECT_EQ(error(file(" 0 INSERT 2 B")), "line 22: the block 'B' does not exist");
+  const std::string itself = " 0 BLOCK 2 B 0 INSERT 2 B 0 ENDBLK";
+  EXPECT_EQ(error(file(" 0 INSERT 2 B", itself)), "line 20: blocks that contain each other");
+  std::string doubled = " 0 BLOCK 2 B0" + kFace + " 0 ENDBLK";
+  for (int i = 1; i < 60; ++i) {
+    const std::string twice = " 0 INSERT 2 B" + std::to_string(i - 1);
+    doubled += " 0 BLOCK 2 B" + std::to_string(i) + twice + twice + " 0 ENDBLK";
+  }
+  EXPECT_NE(error(file(" 0 INSERT 2 B59", doubled)).find("damaged or malicious"), std::string::npos);
+  EXPECT_NE(error(file(" 0 INSERT 2 B0 70 9000000000 71 9000000000", doubled)).find("damaged or malicious"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace holdfast::io_dxf_test
