@@ -25,6 +25,8 @@ class Surface(NamedTuple):
 
 def closed_surfaces(folder):
     """Those that are valid, each segment with two facets or more; by size."""
+    if not (folder / "valid").is_dir():
+        sys.exit(f"{folder}/valid: no such folder of surfaces")
     manifest = corpus.manifest_of(folder)
     told = [(path, *corpus.describe(path, manifest.get(path.stem))) for path in (folder / "valid").glob("*.off")]
     return sorted((Surface(path, triangles) for path, triangles, group in told if group == "closed"),
