@@ -46,6 +46,9 @@ struct ReadOptions : Limits {
   /// its mean plane, and those of polygons in read_planes from theirs; 0: as far as the rounding of
   /// coordinates to six digits or to single precision explains. Single polygons need no plane elsewhere.
   double tolerance = 0;
+  /// read_planes: arcs of a .dxf become straight pieces of at most this many degrees, 0.1 to 120; 0: arcs are
+  /// refused.
+  double arc_step = 0;
 };
 
 /// Reads a surface; the format follows the extension unless `format` (".stl", ...) is given.

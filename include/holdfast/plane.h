@@ -37,6 +37,7 @@ struct Plane {
   std::vector<Seed> regions;    ///< the region of each gets its id
   int base = 0;                 ///< the number of the first point and segment in the file, for messages
   std::vector<Remark> remarks;  ///< what the file also has
+  Names names = {};             ///< of markers of segments and points, and as `facets` of regions
 };
 
 /// How missing segments are recovered.
@@ -127,7 +128,8 @@ struct PlaneMesh {
   std::vector<int> point_markers, segment_markers;  ///< empty, or one per point and per segment
   /// For planes in space: the points, those of the input bit for bit. `points` is then empty.
   std::vector<Point> in_space = {};
-  int base = 0;  ///< number of the first point and of the first triangle in .node and .ele
+  int base = 0;      ///< number of the first point and of the first triangle in .node and .ele
+  Names names = {};  ///< those of the input
 };
 
 struct PlaneResult {
@@ -162,6 +164,7 @@ struct PlanesInSpace {
   };
   std::vector<Part> parts;  ///< one part if everything is coplanar, otherwise one for each polygon or facet
   std::vector<Remark> remarks;  ///< what the file also has
+  Names names = {};             ///< as in Plane
 };
 
 /// Triangulates each plane and returns the triangles of all planes together, oriented as their polygons.
@@ -187,16 +190,27 @@ struct PlanesInSpace {
                                                      const ReadOptions& options = {});
 
 /// Points and segments that lie in one plane in space: exactly, up to rounding, or within `tolerance`. Each
-/// point keeps its number; points at one place count as one. Throws std::invalid_argument for a tolerance
-/// that is negative or not finite, for segments of points that do not exist, and if there is no such plane.
-[[nodiscard]] HOLDFAST_API PlanesInSpace plane_in_space(std::span<const Point> points,
-                                                        std::span<const Segment> segments,
-                                                        std::span<const Point> holes = {},
-                                                        double tolerance = 0);
+/// point keeps its number; points at one place count as one, with the first of their markers that is not 0.
+/// There are as many markers as entities, or none. Throws std::invalid_argument for a tolerance that is
+/// negative or not finite, for markers of another number, for segments of points that do not exist, and if
+/// there is no such plane.
+[[nodiscard]] HOLDFAST_API PlanesInSpace plane_in_space(
+    std::span<const Point> points, std::span<const Segment> segments, std::span<const Point> holes = {},
+    double tolerance = 0, std::span<const int> point_markers = {}, std::span<const int> segment_markers = {});
 
-/// Writes triangles: .off (z = 0), .node and .ele beside it, .vtu. Throws FileError.
+/// The triangles as a surface: points of the plane have z = 0, and the region of a triangle is its marker,
+/// since surfaces have no regions.
+[[nodiscard]] HOLDFAST_API Surface surface_of(const PlaneMesh& mesh);
+
+/// Writes triangles: .off (z = 0), .node and .ele and .edge beside it, .vtu; in all other formats, as
+/// `write_surface` and `write_volume` write `surface_of` the mesh. Throws FileError.
 HOLDFAST_API void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh,
                               const WriteOptions& options = {});
+
+/// What the file of `write_plane` does not hold of the mesh.
+[[nodiscard]] HOLDFAST_API std::vector<Remark> not_held(const std::filesystem::path& path,
+                                                        const PlaneMesh& mesh,
+                                                        const WriteOptions& options = {});
 
 /// Extensions of the formats that write_plane knows, and the files that it writes.
 [[nodiscard]] HOLDFAST_API std::vector<std::string> plane_formats();

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import typing
-from typing import Any, Optional, Tuple
+from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
 from ._masks import plain, require_unmasked
 from ._mesh import _listed, _positive
+from ._names import Fixed, Names, names_of
 from ._surface import Array, PathLike, indices_of, markers_of
 from .errors import _raise_unless_done
 
@@ -69,6 +70,12 @@ class PlaneMesh:
         return _or_none(self._result.segment_markers)
 
     @property
+    def names(self) -> Names:
+        """The names of a file: `segments` and `points` of their markers, as of layers of a .dxf. They are written to formats
+        that can hold them; `save(path, names=...)` writes others."""
+        return Names(*map(Fixed, self._result.names))
+
+    @property
     def report(self) -> dict[str, Any]:
         """The report, as `holdfast plane --report` writes it."""
         if self._report is None:
@@ -80,16 +87,21 @@ class PlaneMesh:
         path: PathLike,
         format: Optional[str] = None,
         *,
+        names: Union[None, Names, typing.Mapping[str, typing.Mapping[int, str]]] = None,
         time_limit: Optional[float] = None,
         memory_limit: Optional[MemoryAmount] = None,
         cancel: Optional[CancelToken] = None,
         progress: Progress = None,
-    ) -> None:
-        """Writes .off (z = 0), .node with .ele and .edge beside it, or .vtu; the file appears complete or not at all. Raises
-        FileError."""
+    ) -> list[str]:
+        """Writes .off (z = 0), .node with .ele and .edge beside it, .vtu, or any format in which `convert` writes surfaces;
+        there, the region of a triangle is its marker. `names` replaces the names of ids; `regions` and `triangles` both
+        name regions. The file appears complete or not at all. Returns what the format does not hold. Raises FileError."""
+        legacy = format in ("msh2", ".msh2")
+        given = None if names is None else names_of(names)
         options = limits(time_limit, memory_limit, cancel)
+        options.update(legacy_msh=legacy, names=given and tuple(given._replace(triangles={**given.regions, **given.triangles})))
         with Shown(progress, "write") as callback:
-            self._result.save(os.fsdecode(path), format or "", options, callback)
+            return self._result.save(os.fsdecode(path), ".msh" if legacy else format or "", options, callback)
 
     def __repr__(self) -> str:
         return f"PlaneMesh({counted(len(self.points), 'point')}, {counted(len(self.triangles), 'triangle')})"
@@ -115,6 +127,7 @@ def plane(
     stop_after: Optional[str] = None,
     order: Optional[str] = None,
     tolerance: float = 0.0,
+    arcs: Optional[float] = None,
     seed: int = 1,
     format: Optional[str] = None,
     time_limit: Optional[float] = None,
@@ -128,7 +141,7 @@ def plane(
     ----------
     points
         (n, 2) coordinates; (n, 3) coordinates of points in one plane in space; or the path of a .poly or .node
-        (Triangle), or of polygons in space (.off, .obj, .ply, ...).
+        (Triangle), of lines (.dxf), or of polygons in space (.off, .obj, .ply, ...).
     segments
         (k, 2) indices from 0. Outlines, nested or not, and segments with free ends. Every region that segments separate
         from the outside is kept; without segments, everything within the convex hull.
@@ -167,6 +180,9 @@ def plane(
         near the previous one.
     tolerance
         How far points in space may be from their mean plane; rounding is always allowed.
+    arcs
+        Divide the arcs of a .dxf into straight pieces of at most so many degrees, 0.1 to 120; by default they are
+        refused.
     seed
         The seed of the random orders.
     format
@@ -217,6 +233,7 @@ def plane(
         stop_after=stop_after,
         stop_after_swaps=swaps,
         order=order,
+        arcs=0.0 if arcs is None else _positive(arcs, "arcs"),
         seed=whole(seed, "seed"),
     )
     if isinstance(points, (str, bytes, os.PathLike)):
@@ -227,6 +244,8 @@ def plane(
     else:
         if format is not None:
             raise ValueError("format: there is no file to read")
+        if arcs is not None:
+            raise ValueError("arcs: only files have arcs")
         array = _coordinates(points)
         ends = None if segments is None else indices_of(segments, 2, "segments")
         seeds = [_seed(r) for r in _listed(regions, "regions")]
@@ -234,9 +253,9 @@ def plane(
         marks = (markers_of(point_markers, "point_markers"), markers_of(segment_markers, "segment_markers"))
         with Shown(progress, "plane") as callback:
             if array.shape[1] == 3:
-                if seeds or marks != (None, None):
-                    raise ValueError("points in space have no regions and markers here: leave them out")
-                result = _core.plane_in_space((array, ends, places), float(tolerance), options, callback)
+                if seeds:
+                    raise ValueError("points in space have no regions here: leave them out")
+                result = _core.plane_in_space((array, ends, *marks, places), float(tolerance), options, callback)
             else:
                 if tolerance != 0:
                     raise ValueError("tolerance: points of two coordinates lie in the plane")

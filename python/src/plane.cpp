@@ -14,6 +14,7 @@
 #include "arrays.h"
 #include "limits.h"
 #include "named.h"
+#include "names.h"
 #include "plane_report.h"
 #include "register.h"
 #include "text.h"
@@ -99,22 +100,26 @@ std::shared_ptr<PlaneRun> plane_arrays(const py::tuple& given, const py::dict& o
   return solve(options, progress, [&](const Watch&, const PlaneOptions&) { return std::move(plane); });
 }
 
-/// From (points, segments, holes) in three dimensions.
+/// From (points, segments, point markers, segment markers, holes) in three dimensions.
 std::shared_ptr<PlaneRun> plane_in_space_arrays(const py::tuple& given, double tolerance,
                                                 const py::dict& options, const py::object& progress) {
   const std::vector<Point> points = rows_from<Point>(given[0], "points");
   const std::vector<Segment> segments = rows_from<Segment>(given[1], "segments");
-  const auto holes = py::cast<std::vector<Point>>(given[2]);
+  const std::vector<int> point_markers = markers_from(given[2], "point_markers"),
+                         segment_markers = markers_from(given[3], "segment_markers");
+  const auto holes = py::cast<std::vector<Point>>(given[4]);
   return solve(options, progress, [&](const Watch&, const PlaneOptions&) {
-    return plane_in_space(points, segments, holes, tolerance);
+    return plane_in_space(points, segments, holes, tolerance, point_markers, segment_markers);
   });
 }
 
 std::shared_ptr<PlaneRun> plane_file(const py::object& file, const std::string& format, double tolerance,
                                      const py::dict& options, const py::object& progress) {
   const std::filesystem::path path = path_from(file);
+  const auto arc_step = value_of<double>(options, "arcs");
   return solve(options, progress, [&](const Watch& watch, const PlaneOptions& how) {
     ReadOptions reading;
+    reading.arc_step = arc_step;
     static_cast<Limits&>(reading) = how;
     reading.format = format;
     reading.tolerance = tolerance;
@@ -123,16 +128,32 @@ std::shared_ptr<PlaneRun> plane_file(const py::object& file, const std::string& 
   });
 }
 
-void save(const PlaneRun& run, const py::object& file, const std::string& format, const py::dict& options,
-          const py::object& progress) {
+std::vector<std::string> messages_of(const std::vector<Remark>& remarks) {
+  std::vector<std::string> messages;
+  for (const Remark& remark : remarks) messages.push_back(remark.message);
+  return messages;
+}
+
+/// Writes the file and returns what it does not hold.
+std::vector<std::string> save(const PlaneRun& run, const py::object& file, const std::string& format,
+                              const py::dict& options, const py::object& progress) {
   const std::filesystem::path path = path_from(file);
   const Watch watch(progress);
   WriteOptions how;
   take_limits(options, how);
   how.format = format;
+  take(options, "legacy_msh", how.legacy_msh);
   how.progress = [&watch](double fraction) { return watch.go_on("write", fraction); };
+  PlaneMesh renamed;  // only with other names
+  const bool has_names = !options["names"].is_none();
+  if (has_names) {
+    renamed = run.result.mesh;
+    renamed.names = names_from(options["names"]);
+  }
+  const PlaneMesh& mesh = has_names ? renamed : run.result.mesh;
   const py::gil_scoped_release unlocked;
-  write_plane(path, run.result.mesh, how);
+  write_plane(path, mesh, how);
+  return messages_of(not_held(path, mesh, how));
 }
 
 std::string report_of(const PlaneRun& run) {
@@ -144,7 +165,8 @@ py::tuple pickled(const py::object& self) {
   const auto& run = self.cast<const PlaneRun&>();
   return py::make_tuple(self.attr("points"), self.attr("triangles"), self.attr("regions"),
                         self.attr("segments"), self.attr("point_markers"), self.attr("segment_markers"),
-                        run.result.mesh.base, run.input_points, self.attr("remarks"), report_of(run));
+                        run.result.mesh.base, run.input_points, self.attr("remarks"), report_of(run),
+                        self.attr("names"));
 }
 
 std::shared_ptr<PlaneRun> unpickled(const py::tuple& state) {
@@ -168,6 +190,7 @@ std::shared_ptr<PlaneRun> unpickled(const py::tuple& state) {
   for (const auto& message : state[8].cast<std::vector<std::string>>())
     run->remarks.push_back({RemarkKind::left_out, 1, message});
   run->report = state[9].cast<std::string>();
+  mesh.names = names_from(state[10]);
   return run;
 }
 
@@ -206,12 +229,8 @@ void register_plane(py::module_& module) {
       .def_property_readonly("segment_markers", seen_in_plane([](const PlaneMesh& m, py::handle self) {
                                return view_on(m.segment_markers.data(), m.segment_markers.size(), 0, self);
                              }))
-      .def_property_readonly("remarks",
-                             [](const PlaneRun& r) {
-                               std::vector<std::string> messages;
-                               for (const Remark& remark : r.remarks) messages.push_back(remark.message);
-                               return messages;
-                             })
+      .def_property_readonly("remarks", [](const PlaneRun& r) { return messages_of(r.remarks); })
+      .def_property_readonly("names", [](const PlaneRun& r) { return tuple_of(r.result.mesh.names); })
       .def("report", &report_of)
       .def(py::pickle(&pickled, &unpickled))
       .def("save", &save);

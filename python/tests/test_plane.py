@@ -76,6 +76,42 @@ def test_in_space():
     assert len(holdfast.plane(bent, SIDES, tolerance=0.1).triangles) == 10
     with pytest.raises(ValueError, match="names point 8"):
         holdfast.plane(turned, [(0, 8)])
+    marked = holdfast.plane(turned, SIDES, point_markers=range(8), segment_markers=np.arange(8) + 10, size=0.7)
+    assert marked.point_markers[:8].tolist() == list(range(8)) and set(marked.segment_markers.tolist()) == set(range(10, 18))
+    assert len(marked.segments) > 8
+    with pytest.raises(ValueError, match="as many markers"):
+        holdfast.plane(turned, SIDES, segment_markers=[1, 2])
+    with pytest.raises(ValueError, match="no regions here"):
+        holdfast.plane(turned, SIDES, regions=[(0, 0, 1)])
+
+
+def test_formats_and_names(tmp_path):
+    mesh = holdfast.plane(SQUARE, SIDES, segment_markers=[1] * 4 + [2] * 4, regions=[(0.5, 0.5, 7), (*HOLE[0], 8)])
+    told = mesh.save(tmp_path / "a.msh", names={"regions": {7: "plate"}, "segments": {1: "rim"}})
+    assert any("order" in line for line in told)
+    read = holdfast.read_surface(tmp_path / "a.msh")
+    assert read.names.triangles == {7: "plate"} and read.names.segments == {1: "rim"}
+    assert sorted(read.triangle_markers.tolist()) == [7] * 8 + [8] * 2
+    again = holdfast.plane(tmp_path / "a.msh")
+    assert again.names.segments == {1: "rim"} and pickle.loads(pickle.dumps(again)).names == again.names
+    assert again.save(tmp_path / "b.off") == ["8 segments' markers have no place in .off", "1 name has no place in .off"]
+    mesh.save(tmp_path / "c.msh", "msh2")
+    assert "$MeshFormat\n2.2" in (tmp_path / "c.msh").read_text()
+    with pytest.raises(holdfast.FileError, match="cannot be written"):
+        mesh.save(tmp_path / "a.step")
+
+
+def test_drawings(tmp_path):
+    corners = [word for x, y in ((0, 0), (2, 0)) for word in (10, x, 20, y, 42, 1)]
+    words = [0, "SECTION", 2, "ENTITIES", 0, "LWPOLYLINE", 8, "disc", 70, 1, *corners, 0, "ENDSEC", 0, "EOF"]
+    (tmp_path / "a.dxf").write_text("".join(f"{word}\n" for word in words))
+    with pytest.raises(holdfast.FileError, match="arc"):
+        holdfast.plane(tmp_path / "a.dxf")
+    mesh = holdfast.plane(tmp_path / "a.dxf", arcs=10)
+    assert len(mesh.points) == 36 and areas(mesh).sum() == pytest.approx(np.pi, rel=0.01)
+    assert mesh.names.segments == {0: "disc"}
+    with pytest.raises(ValueError, match="only files"):
+        holdfast.plane(SQUARE, SIDES, arcs=10)
 
 
 def test_files(tmp_path):

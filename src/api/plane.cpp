@@ -31,6 +31,7 @@ PlaneResult within_limits(const Input& input, const PlaneOptions& options) {
     PlainMonitor monitor(options, options.progress);
     monitor.tell(0);
     PlaneResult result = plane::triangulate(input, options, [&](double fraction) { monitor.poll(fraction); });
+    if (result.outcome == Outcome::done) result.mesh.names = input.names;
     monitor.tell(1);
     return result;
   } catch (const Interrupted& interrupted) {
@@ -52,10 +53,14 @@ PlaneResult triangulate(const PlanesInSpace& planes, const PlaneOptions& options
 }
 
 PlanesInSpace plane_in_space(std::span<const Point> points, std::span<const Segment> segments,
-                             std::span<const Point> holes, double tolerance) {
+                             std::span<const Point> holes, double tolerance,
+                             std::span<const int> point_markers, std::span<const int> segment_markers) {
   const FloatEnvironment environment;
   if (!(tolerance >= 0) || std::isinf(tolerance))
     throw std::invalid_argument("the tolerance must be finite and not negative");
+  if ((!point_markers.empty() && point_markers.size() != points.size()) ||
+      (!segment_markers.empty() && segment_markers.size() != segments.size()))
+    throw std::invalid_argument("there must be as many markers as points or segments, or none");
   plane::PolygonFacet all;
   all.holes.assign(holes.begin(), holes.end());
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -68,6 +73,8 @@ PlanesInSpace plane_in_space(std::span<const Point> points, std::span<const Segm
   for (Index v = 0; v < points.size(); ++v) all.polygons.push_back({v});
   plane::FoundPlanes found = plane::planes_of(points, {std::move(all)}, tolerance, {});
   if (!found.reason.empty()) throw std::invalid_argument("the points: " + found.reason);
+  for (PlanesInSpace::Part& part : found.planes.parts)
+    plane::mark(part, points, point_markers, segments, segment_markers);
   found.planes.points.assign(points.begin(), points.end());
   return std::move(found.planes);
 }

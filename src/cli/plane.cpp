@@ -10,12 +10,14 @@
 #include <optional>
 #include <span>
 
+#include "any_mesh.h"
 #include "command.h"
 #include "common_options.h"
 #include "defects.h"
 #include "files.h"
 #include "files_of_run.h"
 #include "limits.h"
+#include "name_options.h"
 #include "named.h"
 #include "plane_report.h"
 #include "report.h"
@@ -28,10 +30,11 @@ namespace {
 struct PlaneArguments {
   std::filesystem::path input, output, report;
   std::string input_format, format, method = "swaps", ears, stop_after, order;
+  std::vector<std::string> names;
   LimitArguments limits;
   std::uint64_t seed = 1;
   double tolerance = 0;
-  std::optional<double> size, angle;
+  std::optional<double> size, angle, arcs;
   std::size_t max_points = PlaneOptions{}.max_points;
   bool partition_first = false, delaunay = false, hull = false, keep_boundary = false, quiet = false;
 };
@@ -49,6 +52,9 @@ void set_refinement(const PlaneArguments& arguments, PlaneOptions& options) {
                     *arguments.angle));
   options.size = arguments.size.value_or(0);
   options.angle = arguments.angle;
+  if (arguments.arcs && !(*arguments.arcs >= 0.1 && *arguments.arcs <= 120))
+    throw UsageError(
+        fmt::format("--arcs {}: a number of degrees from 0.1 to 120 is expected", *arguments.arcs));
   options.keep_boundary = arguments.keep_boundary;
   options.max_points = arguments.max_points;
   const bool refines = arguments.size || arguments.angle;
@@ -169,19 +175,36 @@ int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
 /// Names the files of a run, so that none is overwritten.
 WriteOptions target_of(FilesOfRun& files, const PlaneArguments& arguments) {
   files.read_points(arguments.input, arguments.input_format);
-  WriteOptions writing;
-  writing.format = arguments.format;
-  const std::vector<std::filesystem::path> written = files_of_plane(arguments.output, arguments.format);
+  const std::string format = volume_format_of(arguments.output, arguments.format);
   const std::vector<std::string> known = plane_formats();
-  std::string extension = arguments.format.empty() ? arguments.output.extension().string() : arguments.format;
-  if (!extension.empty() && extension.front() != '.') extension.insert(extension.begin(), '.');
-  if (std::find(known.begin(), known.end(), extension) == known.end())
+  if (format != ".msh2" && !is_one_of(known, format))
     throw UsageError(
         fmt::format("{}: '{}' is no format of triangles; use {} as the file's ending or by --format",
-                    arguments.output.string(), extension, fmt::join(known, " ")));
-  for (const std::filesystem::path& path : written) files.write("-o", path);
+                    arguments.output.string(), format, fmt::join(known, " ")));
+  WriteOptions writing;
+  // A .vtu of triangles is one file, and so are .node and .ele without a .face.
+  if (is_one_of({".vtu", ".node", ".ele"}, format)) {
+    writing.format = format;
+    for (const std::filesystem::path& path : files_of_plane(arguments.output, format))
+      files.write("-o", path);
+  } else {
+    writing = write_any(files, "-o", arguments.output, format).options;
+  }
   files.write("--report", arguments.report);
   return writing;
+}
+
+/// Gives the mesh the names of --name. Regions are markers in formats without regions of triangles, so that
+/// either word names them.
+void name_parts(const PlaneArguments& arguments, PlaneMesh& mesh) {
+  Names names = names_of(arguments.names);
+  names.facets.merge(names.regions);
+  merge(mesh.names, names);
+  if (arguments.quiet) return;
+  Nameable there = nameable_in(surface_of(mesh));
+  there.regions = there.facets;
+  there.regions_are_known = true;
+  tell_idle_names(arguments.names, there);
 }
 
 PlaneResult solve(const PlanesInSpace& planes, const PlaneOptions& options) {
@@ -202,11 +225,15 @@ int run(const PlaneArguments& arguments) {
   work_or_report(
       options,
       [&] {
-        const PlanesInSpace planes =
-            read_planes(arguments.input, reading(options, arguments.input_format, arguments.tolerance));
+        ReadOptions how = reading(options, arguments.input_format, arguments.tolerance);
+        how.arc_step = arguments.arcs.value_or(0);
+        const PlanesInSpace planes = read_planes(arguments.input, how);
         if (!arguments.quiet) tell(planes.remarks, arguments.input);
         result = solve(planes, options);
-        if (result.outcome == Outcome::done) write_plane(arguments.output, result.mesh, writing);
+        if (result.outcome != Outcome::done) return;
+        name_parts(arguments, result.mesh);
+        write_plane(arguments.output, result.mesh, writing);
+        if (!arguments.quiet) tell(not_held(arguments.output, result.mesh, writing), arguments.output);
       },
       [&](Outcome outcome, const std::string& message) {
         result.outcome = outcome;
@@ -263,21 +290,28 @@ void add_plane(CLI::App& app, Command& chosen) {
   command
       ->add_option(
           "FILE", arguments->input,
-          "Points and segments: .poly or .node (Triangle), or polygons in space (.off .obj .ply .poly ...)")
+          "Points and segments: .poly or .node (Triangle), lines of a .dxf, or polygons in space (.off .obj "
+          ".ply .poly ...)")
       ->transform(or_standard_input)
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Triangles (.off .node .ele .vtu; .node brings .ele and .edge), -: standard output")
+                   "Triangles (.off .vtu .msh .mesh .stl ..., any format; .node brings .ele and .edge), -: "
+                   "standard output")
       ->transform(or_standard_output)
       ->required()
       ->option_text("FILE");
   add_method(*command, *arguments);
   add_report(*command, arguments->report, "Write counts and times as JSON");
+  add_name_option(*command, arguments->names);
   command->add_option("--format", arguments->format, "Format of the triangles, instead of by ending")
       ->option_text("FORMAT");
   add_input_format(*command, arguments->input_format, "Format of the input");
   add_tolerance(*command, arguments->tolerance);
+  command
+      ->add_option("--arcs", arguments->arcs,
+                   ".dxf: divide arcs into straight pieces of at most DEG degrees (else they are refused)")
+      ->option_text("DEG");
   add_limits(*command, arguments->limits);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

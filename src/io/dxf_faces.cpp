@@ -14,12 +14,13 @@ constexpr std::int64_t kFrame = 16, kPosition = 64, kFaceOfVertices = 128;  // o
 
 }  // namespace
 
-DxfFaces::DxfFaces(const Source& source) : mesh_(without_polygons(source)) {}
+DxfFaces::DxfFaces(const Source& source)
+    : mesh_(without_polygons(source)), takes_lines_(source.keeps_polygons), lines_(source.arc_step) {}
 
 bool DxfFaces::add(DxfText& text, const DxfEntity& entity, int layer) {
   if (entity.type == "VERTEX" && polyline_ != Polyline::none) return add_vertex(text, entity), true;
   if (entity.type == "SEQEND" && polyline_ != Polyline::none) return end_polyline(text), true;
-  finish(text);
+  require_end(text);
   layer_ = layer;
   if (entity.type == "3DFACE")
     add_face(text, entity);
@@ -28,11 +29,16 @@ bool DxfFaces::add(DxfText& text, const DxfEntity& entity, int layer) {
   else if (entity.type == "MESH")
     add_mesh(text, entity);
   else
-    return entity.type == "SEQEND";
+    return entity.type == "SEQEND" || (takes_lines_ && lines_.add(mesh_, text, entity, layer));
   return true;
 }
 
-void DxfFaces::finish(const DxfText& text) const {
+void DxfFaces::finish(const DxfText& text) {
+  require_end(text);
+  lines_.join_ends(mesh_);
+}
+
+void DxfFaces::require_end(const DxfText& text) const {
   if (polyline_ != Polyline::none)
     text.fail_at(place_, "the POLYLINE has no SEQEND; the file is truncated or damaged");
 }
@@ -73,12 +79,17 @@ void DxfFaces::begin_polyline(DxfText& text, const DxfEntity& entity) {
   }
   points_.clear();
   faces_.clear();
+  if (polyline_ == Polyline::line && takes_lines_) outline_ = outline_of_polyline(text, entity);
 }
 
 void DxfFaces::add_vertex(DxfText& text, const DxfEntity& entity) {
   const std::int64_t flags = text.integer(entity, 70, 0);
   const bool is_face =
       polyline_ == Polyline::polyface && (flags & kFaceOfVertices) != 0 && (flags & kPosition) == 0;
+  if (polyline_ == Polyline::line) {
+    if (takes_lines_ && (flags & kFrame) == 0) outline_.add(text, entity);
+    return;
+  }
   if (!is_face) {
     // Control points of a smooth grid are no points of it.
     if (polyline_ != Polyline::grid || (flags & kFrame) == 0) points_.push_back(text.point(entity, 10));
@@ -97,7 +108,8 @@ void DxfFaces::add_vertex(DxfText& text, const DxfEntity& entity) {
 
 void DxfFaces::end_polyline(const DxfText& text) {
   const Polyline kind = std::exchange(polyline_, Polyline::none);
-  if (kind == Polyline::line) return void(++lines_);
+  if (kind == Polyline::line)
+    return takes_lines_ ? lines_.add(mesh_, text, outline_, layer_) : void(++lines_left_out_);
   if (kind == Polyline::grid) add_grid(text);
   const std::size_t first = mesh_.vertices.size();
   mesh_.vertices.insert(mesh_.vertices.end(), points_.begin(), points_.end());

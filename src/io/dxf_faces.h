@@ -1,9 +1,11 @@
-// The faces of a DXF file: 3DFACE, polyface meshes and polygon meshes (POLYLINE), and MESH.
+// The faces of a DXF file: 3DFACE, polyface meshes and polygon meshes (POLYLINE), and MESH; for outlines its
+// lines, too.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "io/dxf_lines.h"
 #include "io/dxf_text.h"
 #include "io/mesh_data.h"
 
@@ -15,14 +17,17 @@ class DxfFaces {
  public:
   explicit DxfFaces(const Source& source);
 
-  /// Adds the faces of an entity; false if it has none of these types. A polyline takes several entities.
+  /// Adds the faces of an entity, or its lines if the source keeps polygons; false if it has none of these
+  /// types. A polyline takes several entities.
   bool add(DxfText& text, const DxfEntity& entity, int layer);
   /// Throws if a polyline has not ended.
-  void finish(const DxfText& text) const;
+  void require_end(const DxfText& text) const;
+  /// The same at the end of the block; ends of arcs then get the places of ends of lines beside them.
+  void finish(const DxfText& text);
 
   [[nodiscard]] const MeshData& mesh() const { return mesh_; }
   /// Polylines in space or the plane, which have no faces.
-  [[nodiscard]] std::size_t lines() const { return lines_; }
+  [[nodiscard]] std::size_t lines_left_out() const { return lines_left_out_; }
 
  private:
   enum class Polyline { none, polyface, grid, line };
@@ -49,7 +54,10 @@ class DxfFaces {
     std::size_t place;
   };
   std::vector<Face> faces_;
-  std::size_t lines_ = 0;
+  bool takes_lines_;
+  DxfLines lines_;
+  Outline outline_;  ///< the polyline's, if it is a line
+  std::size_t lines_left_out_ = 0;
 };
 
 }  // namespace holdfast::io

@@ -1,12 +1,12 @@
 // Reads the faces of DXF files as text (AutoCAD DXF reference): 3DFACE, polyface and polygon meshes, MESH,
-// and blocks of these, placed by INSERT. Layers are markers. Lines, texts and solids of CAD kernels have no
-// faces.
+// and blocks of these, placed by INSERT. Layers are markers. Lines, which have no faces, are read for
+// outlines in planes; texts and solids of CAD kernels are left out.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "io/dxf_faces.h"
+#include "io/dxf_plane.h"
 #include "io/dxf_text.h"
 #include "io/formats.h"
 #include "io/labels.h"
@@ -88,7 +88,7 @@ class DxfReader {
     Placement scaled;
     for (std::size_t axis = 0; axis < 3; ++axis)
       scaled.m[4 * axis] = text_.real(entity, 41 + static_cast<int>(axis), 1);
-    const Placement plane = placement_of_plane(entity);
+    const Placement plane = placement_of_plane(text_, entity);
     const Placement turned = plane.after(Placement::turned({}, {0, 0, 1}, text_.real(entity, 50, 0)));
     Insert result{std::string(DxfText::text(entity, 2)), layer_of(entity), {}, 1, 1, {}, {}, entity.place};
     result.placement = plane.after(Placement::moved_by(text_.point(entity, 10)))
@@ -99,32 +99,6 @@ class DxfReader {
     result.column = Placement::moved_by(turned.of({text_.real(entity, 44, 0), 0, 0}));
     result.row = Placement::moved_by(turned.of({0, text_.real(entity, 45, 0), 0}));
     return result;
-  }
-
-  /// From the coordinates of an entity's plane, by the normal in 210 to 230 ("Arbitrary axis algorithm").
-  Placement placement_of_plane(const DxfEntity& entity) {
-    const Point normal{text_.real(entity, 210, 0), text_.real(entity, 220, 0), text_.real(entity, 230, 1)};
-    if (normal == Point{0, 0, 1}) return {};
-    constexpr double kSmall = 1.0 / 64;
-    const bool is_near_z = std::fabs(normal[0]) < kSmall && std::fabs(normal[1]) < kSmall;
-    const Point z = unit(normal, entity),
-                x = unit(cross(is_near_z ? Point{0, 1, 0} : Point{0, 0, 1}, z), entity);
-    const Point y = cross(z, x);
-    Placement plane;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      plane.m[axis] = x[axis];
-      plane.m[3 + axis] = y[axis];
-      plane.m[6 + axis] = z[axis];
-    }
-    return plane;
-  }
-  static Point cross(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-  Point unit(const Point& p, const DxfEntity& entity) const {
-    const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-    if (!(length > 0)) text_.fail_at(entity.place, "an INSERT whose plane has no normal");
-    return {p[0] / length, p[1] / length, p[2] / length};
   }
 
   void put(const DxfBlock& block, const Placement& placement, int layer, std::size_t depth) {
@@ -152,7 +126,7 @@ class DxfReader {
   void count_copy(const Insert& insert) {
     step(source_.watch);
     constexpr std::size_t kHarmless = std::size_t{1} << 22, kMostTimes = 1000;
-    const std::size_t size = mesh_.vertices.size() + mesh_.facets.size();
+    const std::size_t size = mesh_.vertices.size() + mesh_.facets.size() + mesh_.segments.size();
     if (++copies_ > kMostCopies || (size > kHarmless && size / kMostTimes > source_.bytes.size()))
       text_.fail_at(insert.place, "more than " + std::to_string(copies_ - 1) + " copies of blocks, " +
                                       std::to_string(mesh_.facets.size()) +
@@ -175,6 +149,13 @@ class DxfReader {
       layer_of_facet_.push_back(own);
       mesh_.add_facet(facet);
     }
+    for (std::size_t s = 0; s < faces.segments.size(); ++s) {
+      beat(source_.watch);
+      const int own = faces.segment_markers.of(s) == 0 ? layer : faces.segment_markers.of(s);
+      used_.insert(own);
+      layer_of_segment_.push_back(own);
+      mesh_.add_segment({faces.segments[s][0] + first, faces.segments[s][1] + first});
+    }
     mesh_.polygon_counts.add(faces.polygon_counts);
   }
 
@@ -186,16 +167,19 @@ class DxfReader {
     for (const int layer : used_) {
       const int marker = used_.size() > 1 ? static_cast<int>(markers.size()) + 1 : 0;
       markers[layer] = marker;
-      mesh_.names.facets[marker] = names[layer];
+      if (!layer_of_facet_.empty()) mesh_.names.facets[marker] = names[layer];
+      if (!layer_of_segment_.empty()) mesh_.names.segments[marker] = names[layer];
     }
-    mesh_.facet_markers = {};
+    mesh_.facet_markers = mesh_.segment_markers = {};
     for (std::size_t f = 0; f < layer_of_facet_.size(); ++f)
       mesh_.facet_markers.add(f, markers[layer_of_facet_[f]]);
+    for (std::size_t s = 0; s < layer_of_segment_.size(); ++s)
+      mesh_.segment_markers.add(s, markers[layer_of_segment_[s]]);
   }
 
   void tell_left_out() {
-    std::size_t lines = top_.faces.lines();
-    for (const auto& [name, block] : blocks_) lines += block.faces.lines();
+    std::size_t lines = top_.faces.lines_left_out();
+    for (const auto& [name, block] : blocks_) lines += block.faces.lines_left_out();
     if (lines > 0) others_["POLYLINE"] += lines;
     std::string names;
     std::size_t count = 0;
@@ -203,14 +187,17 @@ class DxfReader {
       names += (names.empty() ? "" : ", ") + in_quotes(name);
       count += entities;
     }
-    if (mesh_.facets.empty())
-      throw FileError(
-          source_.path, "",
-          "holds no faces (3DFACE, MESH, polyface or polygon mesh)" +
-              (names.empty() ? ""
-                             : ", but " + names +
-                                   "; export solids as meshes, or as STL, and outlines as .obj or .poly"));
-    mesh_.leave_out(count, "entities without faces (" + names + ")", "entity without faces (" + names + ")");
+    const bool for_outlines = source_.keeps_polygons;
+    const std::string what = for_outlines ? "faces or lines" : "faces";
+    if (mesh_.facets.empty() && mesh_.segments.empty())
+      throw FileError(source_.path, "",
+                      "holds no " + what + " (3DFACE, MESH, polyface or polygon mesh" +
+                          (for_outlines ? ", LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE)" : ")") +
+                          (names.empty() ? ""
+                                         : ", but " + names + "; export solids as meshes, or as STL" +
+                                               (for_outlines ? "" : "; `holdfast plane` fills outlines")));
+    mesh_.leave_out(count, "entities without " + what + " (" + names + ")",
+                    "entity without " + what + " (" + names + ")");
   }
 
   Source source_;
@@ -222,7 +209,7 @@ class DxfReader {
   MeshData mesh_;
   std::map<std::string, int> layers_;
   std::set<int> used_;
-  std::vector<int> layer_of_facet_;
+  std::vector<int> layer_of_facet_, layer_of_segment_;
   std::map<std::string, std::size_t> others_;
   std::size_t copies_ = 0;
   bool has_section_ = false, has_end_ = false;

@@ -182,4 +182,7 @@ void write_openfoam(const std::filesystem::path& folder, const Volume& volume, c
 [[nodiscard]] MeshData parse_surface(const Source& source, std::string_view format = {});
 [[nodiscard]] MeshData parse_volume(const Source& source, std::string_view format = {});
 
+/// A surface as a volume without tetrahedra, for writers of volumes. Seeds are left out.
+[[nodiscard]] Volume as_volume(const Surface& surface);
+
 }  // namespace holdfast::io

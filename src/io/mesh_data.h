@@ -33,6 +33,7 @@ struct Source {
   Watch* watch = nullptr;
   double tolerance = 0;  ///< how far corners of a polygon may lie from its plane; see ReadOptions
   bool keeps_polygons = false;
+  double arc_step = 0;                   ///< see ReadOptions
   std::span<const Origin> origins = {};  ///< for a text joined from several files: ascending, from its begin
 };
 

@@ -1,21 +1,40 @@
-// Writes triangles in the plane: .off, .node with .ele and .edge, .vtu.
+// Writes triangles in the plane: .off, .node with .ele and .edge, and .vtu, which have both regions and
+// segments; all other formats as surfaces.
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "holdfast/plane.h"
+#include "holdfast/surface_io.h"
 #include "io/atomic_writer.h"
+#include "io/formats.h"
+#include "io/labels.h"
 #include "io/text_reader.h"
+#include "io/vtk_cells.h"
 #include "io/vtu_arrays.h"
 #include "numbers/float_environment.h"
+#include "text/count.h"
 
 namespace holdfast {
 namespace io {
 namespace {
 
-std::string written_extension(const std::filesystem::path& path, std::string_view format) {
-  std::string extension = lower(format.empty() ? path.extension().string() : std::string(format));
-  if (!extension.empty() && extension[0] != '.') extension.insert(0, 1, '.');
-  return extension;
+bool is_among(const std::vector<std::string>& formats, const std::string& format) {
+  return std::find(formats.begin(), formats.end(), format) != formats.end();
+}
+
+bool is_of_triangle(const std::string& format) { return format == ".node" || format == ".ele"; }
+
+/// The formats that the functions below write; surfaces are written in all others.
+bool is_own(const std::string& format) {
+  return format == ".off" || format == ".vtu" || is_of_triangle(format);
+}
+
+std::vector<Point> points_of(const PlaneMesh& mesh) {
+  std::vector<Point> points = mesh.in_space;
+  if (points.empty())
+    for (const PlanePoint& p : mesh.points) points.push_back({p[0], p[1], 0});
+  return points;
 }
 
 void write_off(AtomicWriter& out, const PlaneMesh& mesh) {
@@ -65,9 +84,7 @@ void write_triangle(const std::filesystem::path& path, const PlaneMesh& mesh, Wa
 }
 
 void write_grid(AtomicWriter& out, const PlaneMesh& mesh, const WriteOptions& options) {
-  std::vector<Point> points = mesh.in_space;
-  if (points.empty())
-    for (const PlanePoint& p : mesh.points) points.push_back({p[0], p[1], 0});
+  const std::vector<Point> points = points_of(mesh);
   VtuCells cells;
   std::vector<std::int32_t> regions, markers;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -83,36 +100,87 @@ void write_grid(AtomicWriter& out, const PlaneMesh& mesh, const WriteOptions& op
   }
   VtuArrays arrays = cells.arrays(points, {vtu_array("region", regions), vtu_array("marker", markers)});
   if (!mesh.point_markers.empty()) arrays.point_data.push_back(vtu_array("marker", mesh.point_markers));
+  arrays.field_data = vtk_fields(mesh.names);
   write_vtu_arrays(out, arrays, options);
+}
+
+/// What .off does not hold: a single region says nothing.
+void tell_not_in_off(const PlaneMesh& mesh, std::vector<Remark>& remarks) {
+  const auto tell_markers = [&](const std::vector<int>& markers, const char* one, const char* many) {
+    const auto count = static_cast<std::size_t>(
+        std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
+    if (count > 0)
+      remarks.push_back({RemarkKind::not_held, count,
+                         counted(count, one, many) + (count == 1 ? " has" : " have") + " no place in .off"});
+  };
+  if (std::set<int>(mesh.regions.begin(), mesh.regions.end()).size() > 1)
+    tell_markers(mesh.regions, "triangle's region", "triangles' regions");
+  tell_markers(mesh.segment_markers, "segment's marker", "segments' markers");
+  tell_markers(mesh.point_markers, "point's marker", "points' markers");
+}
+
+/// Throws FileError for a format that is not known, and std::invalid_argument for a mesh that is none.
+std::string checked_format(const std::filesystem::path& path, const PlaneMesh& mesh,
+                           std::string_view format) {
+  std::string extension = volume_format_of(path, format);
+  const std::vector<std::string> known = plane_formats();
+  if (!is_among(known, extension)) {
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    throw FileError(path, "",
+                    "the format " + in_quotes(extension) + " cannot be written; the formats are " + list);
+  }
+  if (mesh.regions.size() != mesh.triangles.size())
+    throw std::invalid_argument("as many region ids as triangles are needed");
+  if (mesh.base < 0) throw std::invalid_argument("points are numbered from 0 on");
+  return extension;
 }
 
 }  // namespace
 }  // namespace io
 
-std::vector<std::string> plane_formats() { return {".off", ".node", ".ele", ".vtu"}; }
+std::vector<std::string> plane_formats() {
+  std::vector<std::string> formats{".off", ".node", ".ele", ".vtu"};
+  for (const std::vector<std::string>& others : {surface_formats(), volume_formats()})
+    for (const std::string& format : others)
+      // OpenFOAM's meshes have cells, and TetGen's .face has no points.
+      if (!io::is_among(formats, format) && format != ".openfoam" && format != ".face")
+        formats.push_back(format);
+  return formats;
+}
 
 std::vector<std::filesystem::path> files_of_plane(const std::filesystem::path& path,
                                                   std::string_view format) {
-  const std::string extension = io::written_extension(path, format);
-  if (extension != ".node" && extension != ".ele") return {path};
-  return {std::filesystem::path(path).replace_extension(".node"),
-          std::filesystem::path(path).replace_extension(".ele"),
-          std::filesystem::path(path).replace_extension(".edge")};
+  const std::string extension = volume_format_of(path, format);
+  if (io::is_of_triangle(extension))
+    return {std::filesystem::path(path).replace_extension(".node"),
+            std::filesystem::path(path).replace_extension(".ele"),
+            std::filesystem::path(path).replace_extension(".edge")};
+  return io::is_own(extension) ? std::vector<std::filesystem::path>{path} : files_of_volume(path, format);
+}
+
+Surface surface_of(const PlaneMesh& mesh) {
+  Surface surface;
+  surface.vertices = io::points_of(mesh);
+  surface.facets = mesh.triangles;
+  surface.facet_markers = mesh.regions;
+  surface.segments = mesh.segments;
+  surface.segment_markers = mesh.segment_markers;
+  surface.vertex_markers = mesh.point_markers;
+  surface.names = mesh.names;
+  return surface;
 }
 
 void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh, const WriteOptions& options) {
   const FloatEnvironment environment;
-  const std::string extension = io::written_extension(path, options.format);
-  const std::vector<std::string> known = plane_formats();
-  if (std::find(known.begin(), known.end(), extension) == known.end())
-    throw FileError(path, "",
-                    "the format " + io::in_quotes(extension) +
-                        " cannot be written; the formats are .off, .node, .ele, .vtu");
-  if (mesh.regions.size() != mesh.triangles.size())
-    throw std::invalid_argument("as many region ids as triangles are needed");
-  if (mesh.base < 0) throw std::invalid_argument("points are numbered from 0 on");
+  const std::string extension = io::checked_format(path, mesh, options.format);
+  if (!io::is_own(extension)) {
+    const Surface surface = surface_of(mesh);
+    return io::is_among(surface_formats(), extension) ? write_surface(path, surface, options)
+                                                      : write_volume(path, io::as_volume(surface), options);
+  }
   io::Watch watch(options, options.progress);
-  if (extension == ".node" || extension == ".ele") {
+  if (io::is_of_triangle(extension)) {
     io::write_triangle(path, mesh, &watch);
   } else {
     io::AtomicWriter out(path, &watch);
@@ -120,6 +188,20 @@ void write_plane(const std::filesystem::path& path, const PlaneMesh& mesh, const
     out.commit();
   }
   watch.finish_written();
+}
+
+std::vector<Remark> not_held(const std::filesystem::path& path, const PlaneMesh& mesh,
+                             const WriteOptions& options) {
+  const std::string extension = io::checked_format(path, mesh, options.format);
+  if (!io::is_own(extension)) {
+    const Surface surface = surface_of(mesh);
+    return io::is_among(surface_formats(), extension) ? not_held(path, surface, options)
+                                                      : not_held(path, io::as_volume(surface), options);
+  }
+  std::vector<Remark> remarks;
+  if (extension == ".off") io::tell_not_in_off(mesh, remarks);
+  if (extension != ".vtu") io::tell_names(mesh.names, extension, remarks);
+  return remarks;
 }
 
 }  // namespace holdfast

@@ -1,7 +1,5 @@
 // Polygons in space as points and segments in planes.
-#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "holdfast/plane.h"
 #include "io/file_bytes.h"
@@ -16,8 +14,6 @@ namespace holdfast {
 namespace io {
 namespace {
 
-Segment ordered(const Segment& s) { return {std::min(s[0], s[1]), std::max(s[0], s[1])}; }
-
 /// The contents of a file as facets; without any, all its points form one.
 std::vector<plane::PolygonFacet> facets_of(MeshData& mesh) {
   std::vector<plane::PolygonFacet> facets = std::move(mesh.polygons);
@@ -28,41 +24,6 @@ std::vector<plane::PolygonFacet> facets_of(MeshData& mesh) {
     for (Index v = 0; v < mesh.vertices.size(); ++v) facets[0].polygons.push_back({v});
   }
   return facets;
-}
-
-bool has_markers(const MeshData& mesh) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (mesh.vertex_markers.of(v) != 0) return true;
-  for (std::size_t s = 0; s < mesh.segments.size(); ++s)
-    if (mesh.segment_markers.of(s) != 0) return true;
-  return false;
-}
-
-/// Puts the markers of vertices and segments on those of a plane. Of several at one place, the first counts.
-void mark(PlanesInSpace::Part& part, const MeshData& mesh) {
-  std::map<Point, Index> at;
-  for (Index v = 0; v < part.numbers.size(); ++v) at.try_emplace(mesh.vertices[part.numbers[v]], v);
-  const auto place_of = [&](Index vertex) {
-    const auto found = at.find(mesh.vertices[vertex]);
-    return found == at.end() ? no_entity : found->second;
-  };
-  Plane& plane = part.plane;
-  for (Index v = 0; v < mesh.vertices.size(); ++v) {
-    const Index place = mesh.vertex_markers.of(v) == 0 ? no_entity : place_of(v);
-    if (place == no_entity) continue;
-    plane.point_markers.resize(plane.points.size(), 0);
-    if (plane.point_markers[place] == 0) plane.point_markers[place] = mesh.vertex_markers.of(v);
-  }
-  std::map<Segment, std::size_t> number;
-  for (std::size_t s = 0; s < plane.segments.size(); ++s) number[ordered(plane.segments[s])] = s;
-  for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
-    if (mesh.segment_markers.of(i) == 0) continue;
-    const auto found = number.find(ordered({place_of(mesh.segments[i][0]), place_of(mesh.segments[i][1])}));
-    if (found == number.end()) continue;
-    plane.segment_markers.resize(plane.segments.size(), 0);
-    int& marker = plane.segment_markers[found->second];
-    if (marker == 0) marker = mesh.segment_markers.of(i);
-  }
 }
 
 PlanesInSpace planes_of(const Source& source, MeshData&& mesh) {
@@ -79,10 +40,14 @@ PlanesInSpace planes_of(const Source& source, MeshData&& mesh) {
     throw FileError(source.path, where, found.reason);
   }
   PlanesInSpace planes = std::move(found.planes);
-  if (has_markers(mesh))
-    for (PlanesInSpace::Part& part : planes.parts) mark(part, mesh);
+  const std::vector<int> of_vertices = mesh.vertex_markers.take(mesh.vertices.size()),
+                         of_segments = mesh.segment_markers.take(segments);
+  for (PlanesInSpace::Part& part : planes.parts)
+    plane::mark(part, mesh.vertices, of_vertices, mesh.segments, of_segments);
   planes.points = std::move(mesh.vertices);
   planes.remarks = std::move(mesh.remarks);
+  planes.names.segments = std::move(mesh.names.segments);
+  planes.names.vertices = std::move(mesh.names.vertices);
   if (found.deviation > 0)
     planes.remarks.push_back({RemarkKind::polygons_cut, 1,
                               "corners lie up to " + decimal(found.deviation, 3) +
@@ -104,9 +69,12 @@ PlanesInSpace read_planes(const std::filesystem::path& path, const ReadOptions& 
   const FloatEnvironment environment;
   if (!(options.tolerance >= 0) || std::isinf(options.tolerance))
     throw std::invalid_argument("the tolerance for polygons must be finite and not negative");
+  constexpr double kLeastStep = 0.1, kMostStep = 120;  // so an arc has few points, and a circle three
+  if (options.arc_step != 0 && !(options.arc_step >= kLeastStep && options.arc_step <= kMostStep))
+    throw std::invalid_argument("arcs are divided into pieces of 0.1 to 120 degrees");
   io::Watch watch(options, options.progress);
   const io::FileBytes bytes(path, &watch);
-  io::Source source{path, bytes.view(), false, &watch, options.tolerance, true};
+  io::Source source{path, bytes.view(), false, &watch, options.tolerance, true, options.arc_step};
   const std::string extension = io::plane_extension_of(path, options.format);
   PlanesInSpace planes;
   if ((extension == ".poly" || extension == ".node") && !io::has_three_dimensions(source)) {

@@ -218,6 +218,13 @@ void require_consistent(const Surface& surface) {
   require_indices(surface);
 }
 
+std::size_t marked(const std::vector<int>& markers) {
+  return static_cast<std::size_t>(
+      std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
+}
+
+}  // namespace
+
 Volume as_volume(const Surface& surface) {
   Volume volume;
   volume.vertices = surface.vertices;
@@ -230,12 +237,6 @@ Volume as_volume(const Surface& surface) {
   return volume;
 }
 
-std::size_t marked(const std::vector<int>& markers) {
-  return static_cast<std::size_t>(
-      std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
-}
-
-}  // namespace
 }  // namespace io
 
 void write_surface(const std::filesystem::path& path, const Surface& surface, const WriteOptions& options) {

@@ -60,4 +60,9 @@ struct FoundPlanes {
 [[nodiscard]] FoundPlanes planes_of(std::span<const Point> vertices, const std::vector<PolygonFacet>& facets,
                                     double tolerance, const Poll& poll);
 
+/// Puts markers of vertices and segments, one each or none, on the points and segments of a plane at their
+/// places. Of several at one place, the first that is not 0 counts.
+void mark(PlanesInSpace::Part& part, std::span<const Point> vertices, std::span<const int> vertex_markers,
+          std::span<const Segment> segments, std::span<const int> segment_markers);
+
 }  // namespace holdfast::plane

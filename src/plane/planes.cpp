@@ -1,5 +1,6 @@
 // Polygons and facets in space as points and segments in planes.
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "plane/facets.h"
@@ -132,6 +133,35 @@ class Planes {
 FoundPlanes planes_of(std::span<const Point> vertices, const std::vector<PolygonFacet>& facets,
                       double tolerance, const Poll& poll) {
   return Planes(vertices, facets, tolerance).run(poll);
+}
+
+void mark(PlanesInSpace::Part& part, std::span<const Point> vertices, std::span<const int> vertex_markers,
+          std::span<const Segment> segments, std::span<const int> segment_markers) {
+  if (vertex_markers.empty() && segment_markers.empty()) return;
+  std::map<Point, Vertex> at;
+  for (Vertex v = 0; v < part.numbers.size(); ++v) at.try_emplace(vertices[part.numbers[v]], v);
+  const auto place_of = [&](Index vertex) {
+    const auto found = at.find(vertices[vertex]);
+    return found == at.end() ? no_entity : found->second;
+  };
+  Plane& plane = part.plane;
+  for (Index v = 0; v < vertex_markers.size(); ++v) {
+    const Vertex place = vertex_markers[v] == 0 ? no_entity : place_of(v);
+    if (place == no_entity) continue;
+    plane.point_markers.resize(plane.points.size(), 0);
+    if (plane.point_markers[place] == 0) plane.point_markers[place] = vertex_markers[v];
+  }
+  std::map<Ends, std::size_t> number;
+  for (std::size_t s = 0; s < plane.segments.size(); ++s)
+    number[ordered(plane.segments[s][0], plane.segments[s][1])] = s;
+  for (std::size_t i = 0; i < segment_markers.size(); ++i) {
+    if (segment_markers[i] == 0) continue;
+    const auto found = number.find(ordered(place_of(segments[i][0]), place_of(segments[i][1])));
+    if (found == number.end()) continue;
+    plane.segment_markers.resize(plane.segments.size(), 0);
+    int& marker = plane.segment_markers[found->second];
+    if (marker == 0) marker = segment_markers[i];
+  }
 }
 
 }  // namespace holdfast::plane

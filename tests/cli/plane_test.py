@@ -156,13 +156,49 @@ class Triangles(CliTest):
         self.assertEqual([line.split()[::4] for line in elements[1:3]], [["1", "7"], ["2", "7"]])
         self.run_program("plane", "in.poly", "-o", "out.vtu")
         self.assertIn(b'NumberOfCells="6"', (self.folder / "out.vtu").read_bytes())
-        self.run_program("convert", "out.vtu", "out.msh")
-        known = json.loads(self.run_program("info", "out.msh", "--json").stdout)
-        self.assertEqual([(m["id"], m["area"]) for m in known["markers"]], [(7, 16)])
         self.assertIn("`plane`", self.run_program("convert", "out.node", "other.msh", expect=3).stderr)
         self.run_program("plane", "out.node", "-o", "hull.off")
         self.assertEqual(len(read_off(self.folder / "hull.off")[1]), 2)
-        self.run_program("plane", "in.poly", "-o", "out.stl", expect=2)
+        self.run_program("plane", "in.poly", "-o", "out.step", expect=2)
+        self.run_program("plane", "in.poly", "-o", "case", "--format", "openfoam", expect=2)
+
+    def test_every_format_that_holds_triangles(self):
+        text = poly(SQUARE + INNER, RING, regions=[(0.5, 0.5, 4), (2.0, 2.0, 6)])
+        self.write("in.poly", text.replace("8 0\n1 1 2\n", "8 1\n1 1 2 3\n"))
+        names = ["--name", "4=outer", "--name", "region:6=inner", "--name", "segment:3=bottom"]
+        unnamed, unmarked = ("mesh", "meshb", "poly", "gts", "xml"), ("off",)
+        for form in ("msh msh2 mesh meshb vtk vtm vtu stl obj ply gts poly off inp unv bdf nas su2 mfem vol xdmf med exo cgns "
+                     "fluent k cdb feb xml").split():
+            said = self.run_program("plane", "in.poly", "-o", f"out.{form}", "--format", form, *names).stderr
+            if form in unnamed + unmarked:
+                self.assertIn("3 names have no place in", said, form)
+            reading = [] if form != "msh2" else ["--input-format", "msh"]
+            known = json.loads(self.run_program("info", f"out.{form}", "--json", *reading).stdout)
+            self.assertEqual((known["triangles"], known["area"]), (10, 16), form)
+            if form not in unmarked:
+                found = [(m["id"], m["area"], m.get("name")) for m in known["markers"]]
+                if form == "stl":  # solids are numbered
+                    found = [(i, *rest) for i, (_, *rest) in zip((4, 6), found)]
+                wanted = [(4, 12, "outer"), (6, 4, "inner")]
+                self.assertEqual(found, [(i, a, None) for i, a, _ in wanted] if form in unnamed else wanted, form)
+        marked = json.loads(self.run_program("info", "out.msh", "--json").stdout)["segment_markers"]
+        self.assertIn((3, 4.0, "bottom"), [(m["id"], m["length"], m.get("name")) for m in marked])
+        said = self.run_program("plane", "in.poly", "-o", "out.off", "--name", "5=none").stderr
+        self.assertIn("--name 5=none does nothing", said)
+        self.assertIn("10 triangles' regions have no place in .off", said)
+
+    def test_outlines_of_drawings(self):
+        lines = ["0", "SECTION", "2", "ENTITIES"]
+        for layer, ends in (("wall", (0, 0, 4, 0)), ("wall", (4, 0, 4, 4)), ("inlet", (4, 4, 0, 4)), ("wall", (0, 4, 0, 0))):
+            lines += ["0", "LINE", "8", layer] + [word for code, x in zip(("10", "20", "11", "21"), ends) for word in (code, str(x))]
+        circle = ["0", "CIRCLE", "8", "bore", "10", "2", "20", "2", "40", "1"]
+        self.write("in.dxf", "\n".join([*lines, *circle, "0", "ENDSEC", "0", "EOF", ""]))
+        self.assertIn("--arcs DEG", self.run_program("plane", "in.dxf", "-o", "out.msh", expect=3).stderr)
+        self.run_program("plane", "in.dxf", "-o", "out.msh", "--arcs", "200", expect=2)
+        self.run_program("plane", "in.dxf", "-o", "out.msh", "--arcs", "15")
+        known = json.loads(self.run_program("info", "out.msh", "--json").stdout)
+        self.assertEqual([(m["name"], m["segments"]) for m in known["segment_markers"]], [("wall", 3), ("inlet", 1), ("bore", 24)])
+        self.assertIn("`holdfast plane` fills outlines", self.run_program("mesh", "in.dxf", "-o", "x.vtu", expect=3).stderr)
 
 
 class MarkersInSpace(CliTest):

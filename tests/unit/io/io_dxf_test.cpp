@@ -1,6 +1,7 @@
 // Faces of AutoCAD's DXF.
 #include <gtest/gtest.h>
 
+#include "holdfast/plane.h"
 #include "io_samples.h"
 
 namespace holdfast::io_dxf_test {
@@ -78,6 +79,90 @@ TEST(DxfFile, BlocksAreCopied) {
   EXPECT_EQ(surface(file(" 0 INSERT 2 B 70 3 71 2 44 4 45 5", block)).facets.size(), 12U);
 }
 
+PlanesInSpace planes(const std::string& bytes, double arc_step = 0) {
+  const TemporaryFolder folder;
+  put(folder / "a.dxf", bytes);
+  ReadOptions options;
+  options.arc_step = arc_step;
+  return read_planes(folder / "a.dxf", options);
+}
+std::size_t triangles(const std::string& bytes, double arc_step = 0) {
+  return triangulate(planes(bytes, arc_step)).mesh.triangles.size();
+}
+
+const std::string kSquare =
+    " 0 LWPOLYLINE 8 rim 90 4 70 1 10 0 20 0 10 4 20 0 10 4 20 4 10 0 20 4 0 LINE 8 cut 10 0 20 0 11 4 21 4";
+
+TEST(DxfOutlines, LayersNameSegments) {
+  const PlaneResult result = triangulate(planes(file(kSquare)));
+  EXPECT_EQ(result.mesh.triangles.size(), 2U);
+  EXPECT_EQ(result.mesh.names.segments, (std::map<int, std::string>{{1, "rim"}, {2, "cut"}}));
+  std::vector<int> markers = result.mesh.segment_markers;
+  std::sort(markers.begin(), markers.end());
+  EXPECT_EQ(markers, (std::vector<int>{1, 1, 1, 1, 2}));
+  // Faces and lines together; a block on layer 0 has the layer of its copy.
+  const std::string block = " 0 BLOCK 2 B 0 LINE 8 0 10 1 20 0 11 1 21 1 0 ENDBLK";
+  const PlanesInSpace copied =
+      planes(file(kSquare + " 0 INSERT 8 rim 2 B 10 1 20 1 0 LINE 8 cut 10 9 20 9 11 8 21 9", block));
+  EXPECT_EQ(copied.points.size(), 4U + 2U + 2U + 2U);
+  EXPECT_EQ(copied.points[8], (Point{2, 1, 0}));
+  EXPECT_EQ(triangles(file(kFace + " 0 LINE 8 0 10 0 20 0 30 0 11 1 21 0 31 0")), 1U);
+  EXPECT_EQ(triangles(file(
+                " 0 POLYLINE 8 a 66 1 70 1 30 7 0 VERTEX 10 0 20 0 0 VERTEX 10 1 20 0 0 VERTEX 10 1 20 1 0 "
+                "VERTEX 10 0 20 0 0 SEQEND")),
+            1U);
+}
+
+TEST(DxfOutlines, OpenPolylinesAndPlanes) {
+  EXPECT_EQ(
+      triangles(file(" 0 LWPOLYLINE 90 3 70 0 10 0 20 0 10 1 20 0 10 1 20 1 0 LINE 10 1 20 1 11 0 21 0")),
+      1U);
+  // In a plane turned up: x of the plane is y, its y is z.
+  const PlanesInSpace turned =
+      planes(file(" 0 LWPOLYLINE 70 1 38 5 210 1 220 0 230 0 10 0 20 0 10 1 20 0 10 1 20 2"));
+  EXPECT_EQ(turned.points, (std::vector<Point>{{5, 0, 0}, {5, 1, 0}, {5, 1, 2}}));
+  const PlanesInSpace lifted =
+      planes(file(" 0 POLYLINE 70 1 30 7 0 VERTEX 10 0 20 0 0 VERTEX 10 1 20 0 0 VERTEX 10 1 20 1 0 SEQEND"));
+  EXPECT_EQ(lifted.points[2], (Point{1, 1, 7}));
+}
+
+TEST(DxfOutlines, ArcsAreDividedWhenAsked) {
+  const std::string disc = file(" 0 LWPOLYLINE 70 1 10 0 20 0 42 1 10 2 20 0 42 1");  // two half circles
+  EXPECT_EQ(refusal_of([&] { return planes(disc); }),
+            "line 22: an arc (ARC, CIRCLE, or a bulge of a polyline); --arcs DEG divides arcs into straight "
+            "pieces of at most DEG degrees");
+  const PlanesInSpace divided = planes(disc, 90);
+  ASSERT_EQ(divided.points.size(), 4U);
+  EXPECT_NEAR(divided.points[1][0], 1, 1e-15);
+  EXPECT_NEAR(divided.points[1][1], -1, 1e-15);  // turns to the left
+  EXPECT_NEAR(divided.points[3][1], 1, 1e-15);
+  // A shallow arc of a large radius stays within its height.
+  for (const Point& p : planes(file(" 0 LWPOLYLINE 70 1 10 0 20 0 42 1e-9 10 2 20 0 10 1 20 5"), 0.1).points)
+    EXPECT_TRUE(p[1] >= -1.1e-9) << p[1];
+  EXPECT_EQ(planes(file(" 0 CIRCLE 10 1 20 2 40 3"), 30).points.size(), 12U);
+  EXPECT_EQ(planes(file(" 0 CIRCLE 10 1 20 2 40 3"), 90).points[1], (Point{1, 5, 0}));
+  // Ends of arcs meet the lines to which they lead, although these are rounded.
+  const std::string slot =
+      " 0 LINE 10 0.70710678 20 0.70710678 11 -3 21 0 0 LINE 10 -3 20 0 11 0.70710678 21 -0.70710678 0 ARC "
+      "10 0 20 0 40 1 "
+      "50 315 51 45";
+  EXPECT_EQ(triangles(file(slot), 45), 2U);
+  EXPECT_EQ(refusal_of([&] { return planes(file(" 0 CIRCLE 40 0"), 30); }),
+            "line 22: an arc whose radius is not positive, or whose numbers are not finite");
+  EXPECT_THROW(static_cast<void>(planes(disc, 0.01)), std::invalid_argument);
+}
+
+TEST(DxfOutlines, WhatIsNoLine) {
+  EXPECT_EQ(planes(file(kSquare + " 0 SPLINE 8 rim")).remarks.front().message,
+            "1 entity without faces or lines ('SPLINE') is left out");
+  EXPECT_EQ(
+      refusal_of([&] { return planes(file(" 0 TEXT")); }),
+      "holds no faces or lines (3DFACE, MESH, polyface or polygon mesh, LINE, LWPOLYLINE, POLYLINE, ARC, "
+      "CIRCLE), but 'TEXT'; export solids as meshes, or as STL");
+  EXPECT_EQ(refusal_of([&] { return planes(file(" 0 POLYLINE 70 1 0 VERTEX 10 0 20 0" + kFace)); }),
+            "line 22: the POLYLINE has no SEQEND; the file is truncated or damaged");
+}
+
 TEST(DxfFile, ErrorsNameTheLine) {
   EXPECT_EQ(error("AutoCAD Binary DXF\r\n\x1a"), "a binary DXF; save it as text");
   EXPECT_EQ(error("hello\n"), "line 1: expected the code of a group, found 'hello'");
@@ -86,7 +171,7 @@ TEST(DxfFile, ErrorsNameTheLine) {
   EXPECT_EQ(error(lines("0 SECTION 2 ENTITIES")), "the file does not end with EOF; it is truncated");
   EXPECT_EQ(error(file(" 0 3DSOLID")),
             "holds no faces (3DFACE, MESH, polyface or polygon mesh), but '3DSOLID'; export "
-            "solids as meshes, or as STL, and outlines as .obj or .poly");
+            "solids as meshes, or as STL; `holdfast plane` fills outlines");
   EXPECT_EQ(error(file(" 0 3DFACE 10 0 20 0 11 1 21 x 12 1")), "line 30: expected a number, found 'x'");
   EXPECT_EQ(error(file(" 0 3DFACE 10 0 20 0 11 1 21 0")), "line 22: a 3DFACE of 2 corners");
   EXPECT_EQ(error(file(" 0 POLYLINE 70 64" + kFace)),
