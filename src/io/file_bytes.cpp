@@ -17,6 +17,7 @@
 #include "io/descriptor.h"
 #include "io/gunzip.h"
 #include "io/text_reader.h"
+#include "io/utf16.h"
 #include "text/count.h"
 
 namespace holdfast::io {
@@ -141,11 +142,13 @@ FileBytes::FileBytes(const std::filesystem::path& path, Watch* watch) {
     bytes_ = std::move(larger);
     capacity *= 2;
   }
-  if (!is_gzip(view())) return;
-  Unpacked unpacked = gunzipped({path, view(), false, watch});
-  unpacked_ = std::move(unpacked.bytes);
-  behind_ = unpacked.behind;
-  bytes_.reset();
+  if (is_gzip(view())) {
+    Unpacked unpacked = gunzipped({path, view(), false, watch});
+    unpacked_ = std::move(unpacked.bytes);
+    behind_ = unpacked.behind;
+  }
+  if (std::optional<std::string> text = from_utf16(view())) unpacked_ = std::move(text);
+  if (unpacked_) bytes_.reset();
 }
 
 }  // namespace holdfast::io

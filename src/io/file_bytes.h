@@ -17,7 +17,8 @@ namespace holdfast::io {
 /// The file beside `path` with another extension, or that name with ".gz" if only this file exists.
 [[nodiscard]] std::filesystem::path sibling(const std::filesystem::path& path, const char* extension);
 
-/// The bytes of a file, read at once and unpacked if gzip has packed them.
+/// The bytes of a file, read at once, unpacked if gzip has packed them, and converted if they are text in
+/// UTF-16: all readers expect UTF-8.
 class FileBytes {
  public:
   /// Reads a regular file, a pipe or an open descriptor ("/dev/stdin"), the latter from its current position.
@@ -34,7 +35,7 @@ class FileBytes {
  private:
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;
-  std::optional<std::string> unpacked_;  ///< of a compressed file, instead
+  std::optional<std::string> unpacked_;  ///< of a compressed or converted file, instead
   std::size_t behind_ = 0;
 };
 

@@ -42,6 +42,39 @@ TEST_F(SurfaceVariants, NumbersOfOffOnAnyLines) {
   EXPECT_EQ(error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", "a.off").substr(0, 7), "line 6:");
 }
 
+/// ASCII text in UTF-16 with its byte order mark.
+std::string utf16(const std::string& text, bool little) {
+  std::string bytes = little ? "\xFF\xFE" : "\xFE\xFF";
+  for (const char c : text) bytes += little ? std::string{c, '\0'} : std::string{'\0', c};
+  return bytes;
+}
+
+TEST_F(SurfaceVariants, TextInUtf16) {
+  const std::string obj = "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\ng wall\r\nf 1 2 3\r\n";
+  for (const bool little : {true, false}) {
+    EXPECT_EQ(surface(utf16(obj, little), "a.obj").names.facets.begin()->second, "wall");
+    EXPECT_EQ(
+        surface(utf16("solid x\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                      "endloop\nendfacet\nendsolid x\n",
+                      little),
+                "a.stl")
+            .facets.size(),
+        1u);
+    EXPECT_EQ(error(utf16("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n", little), "a.off").substr(0, 7),
+              "line 6:");
+  }
+  // Names beyond ASCII, and beyond 16 bits.
+  const std::string name = utf16("g ", true) + std::string("\xE9\x00\xAC\x20\x3D\xD8\x00\xDE", 8);
+  EXPECT_EQ(surface(utf16("v 0 0 0\nv 1 0 0\nv 0 1 0\n", true) + name.substr(2) +
+                        utf16("\nf 1 2 3\n", true).substr(2),
+                    "a.obj")
+                .names.facets.begin()
+                ->second,
+            "\u00E9\u20AC\U0001F600");
+  // A header of a binary file may begin with these bytes, too.
+  EXPECT_EQ(surface(binary_stl("\xFF\xFE", {{0, 0, 0, 1, 0, 0, 0, 1, 0}}), "a.stl").facets.size(), 1u);
+}
+
 TEST_F(SurfaceVariants, FreeFormsOfObj) {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
                     curve = "cstype bezier\ncurv 0 1 1 2 \\\n 3\nend\n";
