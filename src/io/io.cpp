@@ -183,6 +183,8 @@ std::string without_format(const std::filesystem::path& path, bool reads) {
   if (is_poly_mesh(path / "processor0"))
     return "a case that is only decomposed (`reconstructParMesh -constant` makes its mesh, and each of "
            "processor0, ... can be read)";
+  if (is_poly_mesh(path / "polyMesh"))
+    return "a folder around a polyMesh (give " + (path / "polyMesh").string() + " itself)";
   return "a folder without constant/polyMesh";
 }
 

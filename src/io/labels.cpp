@@ -180,7 +180,7 @@ void tell(const Labels& labels, std::string_view format, std::vector<Remark>& re
 void tell_names(const Names& names, std::string_view format, std::vector<Remark>& remarks) {
   std::size_t count = 0;
   for (const auto* of : {&names.facets, &names.regions, &names.segments, &names.vertices})
-    count += of->size() - of->count(0);
+    count += of->size();
   if (count > 0)
     remarks.push_back({RemarkKind::not_held, count,
                        counted(count, "name", "names") + (count == 1 ? " has" : " have") + " no place in " +

@@ -93,8 +93,7 @@ class NamedIds {
   std::set<int> used_;
 };
 
-/// Says how many ids have names that `format` cannot store. The name of 0 belongs to everything without an
-/// id.
+/// Says how many ids have names that `format` cannot store; 0, which everything without an id has, is one.
 void tell_names(const Names& names, std::string_view format, std::vector<Remark>& remarks);
 
 /// Says how many vertices have markers that `format` cannot store.

@@ -160,13 +160,17 @@ TEST_F(Remarks, SayWhichNamesAreLostOrChanged) {
   surface.facet_markers = {1, 2};
   surface.names.facets = {{0, "all"}, {1, "in let"}, {2, "wall"}};
   const auto lost = [&](const char* name) { return messages(not_held(folder_ / name, surface)); };
-  EXPECT_EQ(lost("a.off"), "2 markers have no place in .off\n2 names have no place in .off\n");
+  EXPECT_EQ(lost("a.off"), "2 markers have no place in .off\n3 names have no place in .off\n");
   for (const char* name : {"a.poly", "a.mesh"})
-    EXPECT_EQ(lost(name), "2 names have no place in " + std::string(name + 1) + "\n");
+    EXPECT_EQ(lost(name), "3 names have no place in " + std::string(name + 1) + "\n");
   EXPECT_EQ(lost("a.obj"), "1 name of a marker is changed to what .obj allows\n");
   for (const char* name : {"a.stl", "a.ply", "a.vtu"}) EXPECT_EQ(lost(name), "") << name;
 
   Volume volume = sample_volume();
+  volume.names = {{{0, "skin"}}, {}, {}, {}};  // the name of all triangles of a file of one solid
+  for (const char* name : {"a.mesh", "a.node", "a.xml"})
+    EXPECT_NE(messages(not_held(folder_ / name, volume)).find("1 name has no place"), std::string::npos)
+        << name;
   volume.names = {{}, {{1, "core"}}, {}, {}};
   for (const char* name : {"a.mesh", "a.meshb", "a.node"})
     EXPECT_EQ(messages(not_held(folder_ / name, volume)),
