@@ -60,11 +60,17 @@ def to_vtk(mesh: _tetmesh.TetMesh) -> Any:
         data = numpy_to_vtk(values, deep=True)
         data.SetName(name)
         grid.GetCellData().AddArray(data)
-    for name, rows in itertools.groupby(sorted(pairs_of(mesh.names)), key=lambda row: row[0]):  # as in .vtu
-        pairs = numpy_to_vtk(np.array([row[1:] for row in rows], np.int32), deep=True)
+    for name, rows in _field_arrays(mesh):
+        pairs = numpy_to_vtk(rows, deep=True)
         pairs.SetName(name)
         grid.GetFieldData().AddArray(pairs)
     return grid
+
+
+def _field_arrays(mesh: _tetmesh.TetMesh) -> list[tuple[str, Array]]:
+    """The names as in .vtu: pairs of ids and dimensions."""
+    by_name = itertools.groupby(sorted(pairs_of(mesh.names)), key=lambda row: row[0])
+    return [(name, np.array([row[1:] for row in rows], np.int32)) for name, rows in by_name]
 
 
 def to_pyvista(mesh: _tetmesh.TetMesh) -> Any:
@@ -75,6 +81,8 @@ def to_pyvista(mesh: _tetmesh.TetMesh) -> Any:
     grid = pyvista.UnstructuredGrid(np.insert(cells, starts, counts), types, np.array(mesh.nodes))
     grid.cell_data["region"] = region
     grid.cell_data["marker"] = marker
+    for name, rows in _field_arrays(mesh):
+        grid.field_data[name] = rows
     return grid
 
 

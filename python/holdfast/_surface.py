@@ -14,7 +14,7 @@ from . import _core
 from ._counts import counted
 from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits
 from ._masks import plain
-from ._meshio import kind_and_cells, tags_of
+from ._meshio import kind_and_cells, names_in_fields, tags_of
 from ._names import Names, names_of
 
 Array = npt.NDArray[Any]
@@ -242,6 +242,21 @@ def _lines_of(offsets: Array, corners: Array) -> Array:
     return np.concatenate(found) if found else np.empty((0, 2), np.int64)
 
 
+def _split_markers(markers: Optional[Array], lines: Array, polygons: int) -> tuple[Optional[Array], Optional[Array]]:
+    """Markers of segments and polygons, of the offsets of polylines: VTK counts points and lines before polygons."""
+    if markers is None:
+        return None, None
+    behind = len(markers) - polygons
+    pieces = np.maximum(np.diff(lines) - 1, 0)
+    return np.repeat(markers[behind - len(pieces) : behind], pieces) if len(pieces) else None, markers[behind:]
+
+
+def _names_of_fields(fields: Any) -> Names:
+    """Names in arrays of the whole mesh, as our .vtu has them: pairs of id and dimension."""
+    arrays = {name: np.asarray(fields[name]) for name in fields.keys()}
+    return names_in_fields({name: pairs for name, pairs in arrays.items() if pairs.ndim == 2 and pairs.shape[1] == 2})
+
+
 def _named(data: Any, *names: str) -> Optional[Array]:
     for name in names:
         try:
@@ -260,11 +275,11 @@ def _of_pyvista(mesh: Any) -> Surface:
     offsets, corners = _offsets_of(mesh.faces)
     cells = _triangles_of(points, offsets, corners)
     lines = plain(getattr(mesh, "lines", np.empty(0, np.int64)), "lines")
-    segments = _lines_of(*_offsets_of(lines)) if lines.size else None
-    markers = _named(getattr(mesh, "cell_data", None), "marker")
-    if markers is not None:  # VTK counts lines before polygons
-        markers = markers[len(markers) - (len(offsets) - 1) :][cells.origin]
-    return Surface(points, cells.triangles, segments=segments, triangle_markers=markers)
+    ends = _offsets_of(lines) if lines.size else (np.empty(0, np.int64), lines)
+    segments = _lines_of(*ends) if lines.size else None
+    of_lines, markers = _split_markers(_named(getattr(mesh, "cell_data", None), "marker"), ends[0], len(offsets) - 1)
+    return Surface(points, cells.triangles, segments=segments, triangle_markers=None if markers is None else markers[cells.origin],
+                   segment_markers=of_lines, names=_names_of_fields(getattr(mesh, "field_data", None) or {}))
 
 
 def _of_vtk(mesh: Any) -> Surface:
@@ -279,11 +294,16 @@ def _of_vtk(mesh: Any) -> Surface:
 
     points = vtk_to_numpy(mesh.GetPoints().GetData())
     cells = _triangles_of(points, *cells_of(mesh.GetPolys()))
-    segments = _lines_of(*cells_of(mesh.GetLines())) if mesh.GetNumberOfLines() else None
+    lines = cells_of(mesh.GetLines()) if mesh.GetNumberOfLines() else (np.empty(0, np.int64), np.empty(0, np.int64))
+    segments = _lines_of(*lines) if mesh.GetNumberOfLines() else None
     array = mesh.GetCellData().GetArray("marker")
-    before = mesh.GetNumberOfVerts() + mesh.GetNumberOfLines()
-    markers = None if array is None else vtk_to_numpy(array)[before:][cells.origin]
-    return Surface(points, cells.triangles, segments=segments, triangle_markers=markers)
+    given = None if array is None else vtk_to_numpy(array)
+    of_lines, markers = _split_markers(given, lines[0], mesh.GetNumberOfPolys())
+    data = mesh.GetFieldData()
+    tables = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]  # None for words
+    fields = {table.GetName(): vtk_to_numpy(table) for table in tables if table is not None}
+    return Surface(points, cells.triangles, segments=segments, triangle_markers=None if markers is None else markers[cells.origin],
+                   segment_markers=of_lines, names=_names_of_fields(fields))
 
 
 def _of_meshio(mesh: Any) -> Surface:

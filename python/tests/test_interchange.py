@@ -12,6 +12,7 @@ import pytest
 import holdfast
 from conftest import QUADS, box, sphere, two_boxes
 from holdfast import compat
+from holdfast._surface import surface_of
 
 
 def poly(points, triangles, **more):
@@ -136,7 +137,7 @@ def test_cells_of_meshio_that_are_no_surface_are_named(cube):
 
 def test_vtk_round_trip():
     pytest.importorskip("vtkmodules")
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkSphereSource
 
     source = vtkSphereSource()
@@ -148,7 +149,14 @@ def test_vtk_round_trip():
     assert np.array_equal(vtk_to_numpy(grid.GetCellData().GetArray("region"))[: len(mesh)], mesh.regions)
     cube = vtkCubeSource()  # quads, corners three times
     cube.Update()
-    boxed = holdfast.mesh(cube.GetOutput())
+    data = cube.GetOutput()
+    markers, pairs = numpy_to_vtk(np.arange(6, dtype=np.int32), deep=True), numpy_to_vtk(np.array([[5, 2]], np.int32), deep=True)
+    markers.SetName("marker")
+    pairs.SetName("top")
+    data.GetCellData().AddArray(markers)
+    data.GetFieldData().AddArray(pairs)
+    boxed = holdfast.mesh(data)
+    assert boxed.names.triangles == {5: "top"} and set(boxed.triangle_markers.tolist()) == set(range(6))
     assert boxed.n_input_points == 8 and boxed.quality().volume.sum() == pytest.approx(1)
 
 
@@ -175,11 +183,11 @@ def fake_pyvista():
 
     class UnstructuredGrid:
         def __init__(self, cells, types, points):
-            self.cells, self.celltypes, self.points, self.cell_data = cells, types, points, {}
+            self.cells, self.celltypes, self.points, self.cell_data, self.field_data = cells, types, points, {}, {}
 
     class PolyData:
         def __init__(self, points, faces):
-            self.points, self.faces, self.cell_data = points, faces, {}
+            self.points, self.faces, self.cell_data, self.field_data = points, faces, {}, {}
 
     return SimpleNamespace(UnstructuredGrid=UnstructuredGrid, PolyData=PolyData)
 
@@ -199,6 +207,15 @@ def test_pyvista_grid_and_accessor(cube, monkeypatch):
     grid = mesh.to_pyvista()
     assert grid.cells[0] == 4 and (grid.celltypes == 10).sum() == len(mesh)
     assert len(grid.cell_data["region"]) == len(grid.celltypes)
+    named = holdfast.mesh(holdfast.Surface(*cube, triangle_markers=[3] * 12, names={"triangles": {3: "wall"}})).to_pyvista()
+    assert named.field_data["wall"].tolist() == [[3, 2]]
+    skin = fake.PolyData(cube[0], np.insert(cube[1], 0, 3, axis=1).ravel())
+    skin.lines = np.array([3, 0, 1, 2, 2, 4, 5])
+    skin.cell_data["marker"] = np.array([7, 8] + [3] * 12)
+    skin.field_data = dict(named.field_data, TimeValue=np.array([1, 2]))
+    read = surface_of(skin, None)
+    assert read.segment_markers.tolist() == [7, 7, 8] and set(read.triangle_markers.tolist()) == {3}
+    assert read.names.triangles == {3: "wall"} and not read.names.points
     from holdfast import pyvista_accessor
 
     assert pyvista_accessor.register()
