@@ -18,6 +18,7 @@
 #include "page.h"
 #include "report.h"
 #include "signals.h"
+#include "unused_vertices.h"
 
 namespace holdfast::cli {
 namespace {
@@ -30,7 +31,7 @@ struct CheckArguments {
   std::optional<double> markers_by_angle;
   CheckOptions options;
   LimitArguments limits;
-  bool repaired = false, surface_of = false, quiet = false;
+  bool repaired = false, surface_of = false, unused_dropped = false, quiet = false;
 };
 
 std::string listing_of(const CheckResult& result) {
@@ -63,18 +64,20 @@ bool is_meant_as_folder(const std::filesystem::path& file) {
 
 int run_on_folder(const CheckArguments& arguments, const CheckOptions& options) {
   if (options.outside_dropped || options.box || arguments.surface_of || arguments.markers_by_angle ||
-      !arguments.input_format.empty() || !arguments.format.empty() || !arguments.html.empty())
+      arguments.unused_dropped || !arguments.input_format.empty() || !arguments.format.empty() ||
+      !arguments.html.empty())
     throw UsageError(
-        "check: --outside-dropped, --box, --surface-of, --markers-by-angle, --format, --input-format and "
-        "--html do nothing for a folder, whose manifest tells all that");
+        "check: --outside-dropped, --unused-dropped, --box, --surface-of, --markers-by-angle, --format, "
+        "--input-format and --html do nothing for a folder, whose manifest tells all that");
   return check_folder({arguments.files[0], arguments.report, options, arguments.quiet});
 }
 
 int run_repaired(const CheckArguments& arguments) {
   if (arguments.options.outside_dropped || arguments.options.box || arguments.surface_of ||
-      arguments.markers_by_angle || !arguments.html.empty())
+      arguments.markers_by_angle || arguments.unused_dropped || !arguments.html.empty())
     throw UsageError(
-        "check: --outside-dropped, --box, --surface-of, --markers-by-angle and --html are about volumes, and "
+        "check: --outside-dropped, --unused-dropped, --box, --surface-of, --markers-by-angle and --html are "
+        "about volumes, and "
         "--repaired is about a surface");
   RepairedFiles files;
   files.inputs.assign(arguments.files.begin(), arguments.files.end() - 1);
@@ -107,6 +110,7 @@ int check_files(const CheckArguments& arguments, const CheckOptions& options,
   if (arguments.markers_by_angle && markers_by_angle(surface, *arguments.markers_by_angle) == 0)
     throw UsageError("--markers-by-angle does nothing: every triangle of the surface has a marker already");
   if (!arguments.quiet) tell(surface.remarks);
+  if (arguments.unused_dropped) surface.vertices = without_unused(surface);
   const Volume volume = read_volume(volume_path, reading(options, arguments.format));
 
   const CheckResult result = check(surface.view(), volume, options);
@@ -164,6 +168,8 @@ void add_check(CLI::App& app, Command& chosen) {
       ->required();
   command->add_flag("--outside-dropped", arguments->options.outside_dropped,
                     "Accept missing facets that lie outside every tetrahedron (mesh --drop-outside)");
+  command->add_flag("--unused-dropped", arguments->unused_dropped,
+                    "Vertices on no triangle and no segment are not in the mesh (mesh --drop-unused)");
   command->add_flag("--box", arguments->options.box,
                     "The mesh extends to an enclosing box (mesh --keep box)");
   command->add_flag("--surface-of", arguments->surface_of,

@@ -235,7 +235,7 @@ int mesh_files(const MeshArguments& arguments, Options options, FilesOfRun& file
   options.progress = std::ref(progress);
   if (!repaired) paste_parts(arguments, options, input);
   result = mesh_or_refuse(arguments, input, options);
-  if (repaired && arguments.exact.empty() && result.report.unrounded_points > 0 &&
+  if (repaired && arguments.exact.empty() && !arguments.drop_unused && result.report.unrounded_points > 0 &&
       result.outcome == Outcome::not_representable)
     mesh_joined_sheets(unrepaired, options, progress, arguments.quiet, input, *repairing, *repaired, result);
   tell_defects_of_files(arguments, input, result);
@@ -372,6 +372,8 @@ void add_mesh(CLI::App& app, Command& chosen) {
           "DEG degrees or more")
       ->check(CLI::Range(0.0, 180.0))
       ->option_text("DEG");
+  command->add_flag("--drop-unused", arguments->drop_unused,
+                    "Leave out vertices on no triangle and no segment, as those that --union leaves");
   command->add_flag("--drop-outside", arguments->drop_outside,
                     "Drop facets outside every kept region instead of refusing them");
   command

@@ -7,11 +7,14 @@
 #include "command.h"
 #include "repair_before.h"
 #include "repair_result.h"
+#include "unused_vertices.h"
 
 namespace holdfast::cli {
 Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Options& options) {
   try {
     if (input.pasted) {
+      if (arguments.drop_unused)
+        throw UsageError("--drop-unused is for one file, or with --repair: the vertices of parts are kept");
       const Surface& pasted = input.pasted->surface;  // has the seeds that a single file has itself
       options.holes.insert(options.holes.end(), pasted.holes.begin(), pasted.holes.end());
       options.regions.insert(options.regions.end(), pasted.regions.begin(), pasted.regions.end());
@@ -26,7 +29,11 @@ Result mesh_or_refuse(const MeshArguments& arguments, const MeshInput& input, Op
     options.holes.insert(options.holes.end(), surface.holes.begin(), surface.holes.end());
     options.regions.insert(options.regions.end(), surface.regions.begin(), surface.regions.end());
     set_bounds(arguments.bounds, surface.names, options);
-    return holdfast::mesh(surface.view(), options);
+    if (!arguments.drop_unused) return holdfast::mesh(surface.view(), options);
+    const std::vector<Point> vertices = without_unused(surface);
+    Complex complex = surface.view();
+    complex.vertices = vertices;
+    return holdfast::mesh(complex, options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }

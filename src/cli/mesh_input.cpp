@@ -77,14 +77,15 @@ void split_by_angle(const MeshArguments& arguments, Surface& surface) {
 }
 
 void tell_of_lone_vertices(const MeshArguments& arguments, const Surface& surface, ProgressView& progress) {
-  const std::size_t lone = isolated_vertices(surface);
+  const std::size_t lone = arguments.drop_unused ? 0 : isolated_vertices(surface);
   if (lone == 0) return;
   progress.finish();
   say("holdfast: {} in {} on no triangle and no segment {} as the mesh's, too{}\n",
       counted(lone, "vertex", "vertices"),
       arguments.surfaces.size() == 1 ? arguments.surfaces[0].string() : "the files",
       lone == 1 ? "is kept" : "are kept",
-      may_need_surface_of(arguments) ? "; --surface-of takes the surface of a volume alone" : "");
+      may_need_surface_of(arguments) ? "; --surface-of takes the surface of a volume alone"
+                                     : "; --drop-unused leaves out all such");
 }
 
 void tell_unused_sizes(const MeshArguments& arguments, const Surface& surface) {

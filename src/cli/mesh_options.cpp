@@ -230,6 +230,7 @@ Json to_json(const MeshArguments& arguments) {
           {"overlap", arguments.overlap ? Json(*arguments.overlap) : Json(nullptr)},
           {"markers_by_angle", arguments.markers_by_angle ? Json(*arguments.markers_by_angle) : Json()},
           {"drop_outside", arguments.drop_outside || arguments.repair_ways.unite},
+          {"drop_unused", arguments.drop_unused},
           {"without", arguments.without},
           {"stop_after", arguments.stop_after},
           {"order", arguments.order.empty() ? name(LayingOrder::random) : arguments.order},

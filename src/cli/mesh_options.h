@@ -24,7 +24,8 @@ struct MeshArguments {
   OutputArguments output;
   std::string input_format;
   double tolerance = 0;
-  bool surface_of = false, fill = false, drop_outside = false, quiet = false, verbose = false;
+  bool surface_of = false, fill = false, drop_outside = false, drop_unused = false, quiet = false,
+       verbose = false;
   std::optional<std::string> keep, quality, overlap;
   std::optional<std::string> paste;   ///< the tolerance; empty if none is given
   std::optional<std::string> repair;  ///< the tolerance, or "true"

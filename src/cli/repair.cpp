@@ -128,7 +128,8 @@ void tell_what_union_leaves(const Surface& before, const RepairResult& result) {
   std::size_t alone = 0;
   for (std::size_t v = 0; v < was.size(); ++v) alone += static_cast<std::size_t>(was[v] && !is[v]);
   if (alone > 0)
-    say("note: {} to nothing any more; `mesh --drop-outside` leaves out those that lie outside\n",
+    say("note: {} to nothing any more; `mesh --drop-outside` leaves out those that lie outside, and "
+        "--drop-unused all\n",
         counted(alone, "vertex belongs", "vertices belong"));
 }
 

@@ -1,6 +1,7 @@
 #include "unused_vertices.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "holdfast/holdfast.h"
 
@@ -23,6 +24,15 @@ std::size_t isolated_vertices(const Surface& surface) {
   for (std::size_t v = 0; v < used.size(); ++v)
     if (!used[v] && (map.empty() || map[v] >= 0)) ++count;
   return count;
+}
+
+std::vector<Point> without_unused(const Surface& surface) {
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Point> vertices = surface.vertices;
+  const std::vector<bool> used = in_use(surface);
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) vertices[v] = {kNowhere, kNowhere, kNowhere};
+  return vertices;
 }
 
 }  // namespace holdfast::cli

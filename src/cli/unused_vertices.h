@@ -14,4 +14,8 @@ namespace holdfast::cli {
 /// out, as duplicates or because they are not finite.
 [[nodiscard]] std::size_t isolated_vertices(const Surface& surface);
 
+/// The vertices of the surface, but those that belong to nothing are not finite, so that a mesh leaves them
+/// out. The others keep their numbers.
+[[nodiscard]] std::vector<Point> without_unused(const Surface& surface);
+
 }  // namespace holdfast::cli

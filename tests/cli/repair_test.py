@@ -619,6 +619,14 @@ class MeshAtOnce(Repaired):
         self.run_program("mesh", "out.off", "-o", "v.vtu", "--fill", "--drop-outside")
         self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--union", "--repaired", "out.off")
         self.run_program("check", "out.off", "v.vtu", "--outside-dropped")
+        self.run_program("mesh", "in.off", "-o", "v.vtu", "--fill", "--repair", "--union", "--repaired", "out.off", "--drop-unused",
+                         "--report", "r.json")
+        self.assertEqual((self.report()["input"]["left_out_vertices"], self.report()["vertex_map"][8:12]), (4, [-1] * 4))
+        self.run_program("check", "out.off", "v.vtu", "--unused-dropped")
+        self.run_program("check", "out.off", "v.vtu", "--outside-dropped", expect=6)
+        self.run_program("mesh", "out.off", "-o", "v.vtu", "--fill", "--drop-unused")
+        self.run_program("check", "out.off", "v.vtu", "--unused-dropped")
+        self.assertIn("--drop-unused leaves out all such", self.run_program("mesh", "out.off", "-o", "v.vtu", "--fill", expect=4).stderr)
 
     def test_a_valid_surface(self):
         said = self.run_program("mesh", "cube.off", "-o", "v.vtu", "--fill", "--repair").stderr
