@@ -97,9 +97,8 @@ class PlaneMesh:
         there, the region of a triangle is its marker. `names` replaces the names of ids; `regions` and `triangles` both
         name regions. The file appears complete or not at all. Returns what the format does not hold. Raises FileError."""
         legacy = format in ("msh2", ".msh2")
-        given = None if names is None else names_of(names)
         options = limits(time_limit, memory_limit, cancel)
-        options.update(legacy_msh=legacy, names=given and tuple(given._replace(triangles={**given.regions, **given.triangles})))
+        options.update(legacy_msh=legacy, names=None if names is None else tuple(names_of(names)))
         with Shown(progress, "write") as callback:
             return self._result.save(os.fsdecode(path), ".msh" if legacy else format or "", options, callback)
 

@@ -197,9 +197,7 @@ WriteOptions target_of(FilesOfRun& files, const PlaneArguments& arguments) {
 /// Gives the mesh the names of --name. Regions are markers in formats without regions of triangles, so that
 /// either word names them.
 void name_parts(const PlaneArguments& arguments, PlaneMesh& mesh) {
-  Names names = names_of(arguments.names);
-  names.facets.merge(names.regions);
-  merge(mesh.names, names);
+  merge(mesh.names, names_of(arguments.names));
   if (arguments.quiet) return;
   Nameable there = nameable_in(surface_of(mesh));
   there.regions = there.facets;

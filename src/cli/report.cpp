@@ -30,9 +30,7 @@ void print_merged(const Report::Input& input) {
   say("{} at {}:{}{}{}\n", counted(all, "vertex", "vertices"), counted(input.vertices, "place"),
       input.merged_vertices == 0 ? "" : fmt::format(" {} merged", input.merged_vertices),
       input.merged_vertices > 0 && input.left_out_vertices > 0 ? "," : "",
-      input.left_out_vertices == 0
-          ? ""
-          : fmt::format(" {} unused (repeated or not finite) left out", input.left_out_vertices));
+      input.left_out_vertices == 0 ? "" : fmt::format(" {} unused left out", input.left_out_vertices));
 }
 
 void write_json(const std::filesystem::path& path, const Json& json) {

@@ -144,8 +144,8 @@ void DxfLines::add_arc(MeshData& mesh, DxfText& text, const DxfEntity& entity, i
 std::size_t DxfLines::pieces_of(const DxfText& text, std::size_t place, double degrees) const {
   if (arc_step_ == 0)
     text.fail_at(place,
-                 "an arc (ARC, CIRCLE, or a bulge of a polyline); --arcs DEG divides arcs into "
-                 "straight pieces of at most DEG degrees");
+                 "an arc (ARC, CIRCLE, or a bulge of a polyline); arcs are divided into straight pieces if "
+                 "an angle for these is given (arcs, in degrees)");
   constexpr double kRounding = 1e-9;  // 90 degrees in steps of 10 are nine pieces
   return static_cast<std::size_t>(std::max(1.0, std::ceil(degrees / arc_step_ - kRounding)));
 }

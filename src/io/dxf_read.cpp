@@ -11,6 +11,7 @@
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/placement.h"
+#include "surface/places.h"
 
 namespace holdfast::io {
 namespace {
@@ -44,6 +45,7 @@ class DxfReader {
     put(top_, {}, 0, 0);
     tell_left_out();
     name_layers();
+    if (source_.keeps_polygons) join_points();
     return std::move(mesh_);
   }
 
@@ -157,6 +159,24 @@ class DxfReader {
       mesh_.add_segment({faces.segments[s][0] + first, faces.segments[s][1] + first});
     }
     mesh_.polygon_counts.add(faces.polygon_counts);
+  }
+
+  /// Each line has its own ends in the file. Points of outlines that nothing uses would stand in the
+  /// triangles' file.
+  void join_points() {
+    const std::vector<Index> first = first_at_places(mesh_.vertices);
+    std::vector<Index> number(first.size());
+    std::vector<Point> points;
+    for (std::size_t v = 0; v < first.size(); ++v) {
+      const bool is_first = first[v] == v;
+      number[v] = is_first ? static_cast<Index>(points.size()) : number[first[v]];
+      if (is_first) points.push_back(mesh_.vertices[v]);
+    }
+    for (Triangle& t : mesh_.facets)
+      for (Index& v : t) v = number[v];
+    for (Segment& s : mesh_.segments)
+      for (Index& v : s) v = number[v];
+    mesh_.vertices = std::move(points);
   }
 
   /// Layers in use are numbered from 1; a single one is no marker.

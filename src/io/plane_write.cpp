@@ -30,6 +30,14 @@ bool is_own(const std::string& format) {
   return format == ".off" || format == ".vtu" || is_of_triangle(format);
 }
 
+/// Names of regions are names of triangles: as names of regions they would be those of tetrahedra later.
+Names names_of(const PlaneMesh& mesh) {
+  Names names = mesh.names;
+  names.facets.merge(names.regions);
+  names.regions.clear();
+  return names;
+}
+
 std::vector<Point> points_of(const PlaneMesh& mesh) {
   std::vector<Point> points = mesh.in_space;
   if (points.empty())
@@ -100,7 +108,7 @@ void write_grid(AtomicWriter& out, const PlaneMesh& mesh, const WriteOptions& op
   }
   VtuArrays arrays = cells.arrays(points, {vtu_array("region", regions), vtu_array("marker", markers)});
   if (!mesh.point_markers.empty()) arrays.point_data.push_back(vtu_array("marker", mesh.point_markers));
-  arrays.field_data = vtk_fields(mesh.names);
+  arrays.field_data = vtk_fields(names_of(mesh));
   write_vtu_arrays(out, arrays, options);
 }
 
@@ -167,7 +175,7 @@ Surface surface_of(const PlaneMesh& mesh) {
   surface.segments = mesh.segments;
   surface.segment_markers = mesh.segment_markers;
   surface.vertex_markers = mesh.point_markers;
-  surface.names = mesh.names;
+  surface.names = io::names_of(mesh);
   return surface;
 }
 
@@ -200,7 +208,7 @@ std::vector<Remark> not_held(const std::filesystem::path& path, const PlaneMesh&
   }
   std::vector<Remark> remarks;
   if (extension == ".off") io::tell_not_in_off(mesh, remarks);
-  if (extension != ".vtu") io::tell_names(mesh.names, extension, remarks);
+  if (extension != ".vtu") io::tell_names(io::names_of(mesh), extension, remarks);
   return remarks;
 }
 

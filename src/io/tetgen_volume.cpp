@@ -75,6 +75,8 @@ MeshData read_tetgen_volume(const Source& source) {
   MeshData mesh;
   const std::size_t count = text.count("the number of elements", 10);
   const std::int64_t corners = text.at_line_end() ? 4 : text.integer("the number of corners");
+  if (corners == 3)
+    text.fail("elements of 3 nodes are triangles, as `plane` writes them; its .vtu is read, for example");
   if (corners != 4 && corners != 10) text.fail("tetrahedra of other than 4 or 10 nodes are not read");
   const std::int64_t attributes = text.at_line_end() ? 1 : text.integer("the number of attributes");
   text.skip_line();

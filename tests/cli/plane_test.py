@@ -193,7 +193,7 @@ class Triangles(CliTest):
             lines += ["0", "LINE", "8", layer] + [word for code, x in zip(("10", "20", "11", "21"), ends) for word in (code, str(x))]
         circle = ["0", "CIRCLE", "8", "bore", "10", "2", "20", "2", "40", "1"]
         self.write("in.dxf", "\n".join([*lines, *circle, "0", "ENDSEC", "0", "EOF", ""]))
-        self.assertIn("--arcs DEG", self.run_program("plane", "in.dxf", "-o", "out.msh", expect=3).stderr)
+        self.assertIn("(arcs, in degrees)", self.run_program("plane", "in.dxf", "-o", "out.msh", expect=3).stderr)
         self.run_program("plane", "in.dxf", "-o", "out.msh", "--arcs", "200", expect=2)
         self.run_program("plane", "in.dxf", "-o", "out.msh", "--arcs", "15")
         known = json.loads(self.run_program("info", "out.msh", "--json").stdout)
