@@ -1,4 +1,5 @@
-// VRML 1.0 and 2.0 (VRML97, ISO/IEC 14772-1): indexed face sets, placed by the scene, possibly several times.
+// VRML 1.0 and 2.0 (VRML97, ISO/IEC 14772-1): indexed face sets and shapes that are polyhedra, placed by the
+// scene, possibly several times.
 // Axes and unit are those of the file.
 #include "io/vrml_read.h"
 
@@ -14,15 +15,15 @@
 #include "io/polygon.h"
 #include "io/solids.h"
 #include "io/vrml_scene.h"
+#include "io/vrml_shapes.h"
 #include "text/decimal.h"
 
 namespace holdfast::io {
 namespace {
 
 /// Shapes that are skipped.
-constexpr std::string_view kShapes[] = {"AsciiText",      "Box",       "Cone",   "Cube", "Cylinder",
-                                        "ElevationGrid",  "Extrusion", "Sphere", "Text", "GeoElevationGrid",
-                                        "IndexedLineSet", "PointSet"};
+constexpr std::string_view kShapes[] = {"AsciiText", "Cone",           "Cylinder", "GeoElevationGrid",
+                                        "Sphere",    "IndexedLineSet", "PointSet", "Text"};
 
 /// VRML97 nodes that stand in place of shapes but are none.
 constexpr std::string_view kOtherNodes[] = {"AudioClip",
@@ -89,7 +90,8 @@ class VrmlReader {
                             " times; such a file is damaged or malicious");
     step(source_.watch);
     // In version 2.0, the shape and the nodes around it have better names than the geometry.
-    const bool is_geometry = !scene_.is_first_version() && node.type == "IndexedFaceSet";
+    const bool is_geometry =
+        !scene_.is_first_version() && (node.type == "IndexedFaceSet" || is_polyhedron(node.type));
     const bool around = node.name.empty() || (is_geometry && !name_around.empty());
     const std::string& name = around ? name_around : node.name;
     if (scene_.is_first_version())
@@ -137,6 +139,8 @@ class VrmlReader {
     } else if (type == "IndexedFaceSet") {
       if (state.coordinates == nullptr) scene_.fail(node, "there is no Coordinate3 before the faces");
       put(node, *state.coordinates, state.is_clockwise, state.placement, name);
+    } else if (type == "Cube") {
+      put_shape(node, state.placement, name);
     } else if (type == "WWWInline") {
       ++inlines_;
     } else if (is_shape(type)) {
@@ -165,6 +169,8 @@ class VrmlReader {
       const VrmlField& coordinates = node.field("coord");
       if (!coordinates.nodes.empty() && coordinates.nodes[0] != nullptr)
         put(node, *coordinates.nodes[0], node.field("ccw").word == "FALSE", state.placement, name);
+    } else if (is_polyhedron(type)) {
+      put_shape(node, state.placement, name);
     } else if (type == "Inline") {
       ++inlines_;
     } else if (is_shape(type)) {
@@ -244,6 +250,21 @@ class VrmlReader {
     if (!there->second.facets.empty()) solids_.add(there->second, name, placement);
   }
 
+  void put_shape(const VrmlNode& shape, const Placement& placement, const std::string& name) {
+    const auto [there, fresh] = solids_of_.try_emplace({&shape, &shape, false});
+    if (fresh) {
+      VrmlFaces faces = faces_of_shape(scene_, shape);
+      MeshData part(part_source_);
+      part.vertices = std::move(faces.points);
+      for (const std::vector<Index>& face : faces.faces) {
+        beat(source_.watch);
+        add_face(part, face, 0, [&](const std::string& reason) { scene_.fail(shape, reason); });
+      }
+      there->second = solid_of(std::move(part));
+    }
+    if (!there->second.facets.empty()) solids_.add(there->second, name, placement);
+  }
+
   [[nodiscard]] Solid solid(const VrmlNode& faces, const VrmlNode& coordinates, bool clockwise) {
     MeshData part(part_source_);
     const std::vector<double>& points = coordinates.field("point").numbers;
@@ -270,6 +291,10 @@ class VrmlReader {
       corners.push_back(static_cast<Index>(index));
     }
     end_face();
+    return solid_of(std::move(part));
+  }
+
+  [[nodiscard]] Solid solid_of(MeshData&& part) {
     polygon_counts_.add(part.polygon_counts);
     return {{}, std::move(part.vertices), std::move(part.facets), {}, {}};
   }

@@ -35,8 +35,11 @@ constexpr std::string_view kLeftOut[] = {
     "TriangleStripSet", "TriangleFanSet",    "IndexedTriangleStripSet", "IndexedTriangleFanSet",
     "LineSet",          "NurbsPatchSurface", "NurbsTrimmedSurface",     "GeoElevationGrid"};
 
-constexpr std::string_view kNumbers[] = {"point", "coordIndex",       "index",  "translation", "rotation",
-                                         "scale", "scaleOrientation", "center", "whichChoice"};
+constexpr std::string_view kNumbers[] = {
+    "point",       "coordIndex", "index",       "translation", "rotation",   "scale",    "scaleOrientation",
+    "center",      "size",       "height",      "xDimension",  "zDimension", "xSpacing", "zSpacing",
+    "whichChoice", "spine",      "orientation", "crossSection"};
+constexpr std::string_view kFlags[] = {"ccw", "beginCap", "endCap"};
 
 template <typename Names>
 bool is_one_of(std::string_view name, const Names& names) {
@@ -110,7 +113,7 @@ VrmlNode* VrmlScene::open_node(const XmlReader& xml, const XmlTag& tag, VrmlNode
   for (const auto& [name, value] : tag.attributes) {
     beat(source_.watch);
     if (is_one_of(name, kNumbers)) read_numbers(xml, tag, value, node.fields[name]);
-    if (name == "ccw") node.fields[name].word = value == "false" ? "FALSE" : "TRUE";
+    if (is_one_of(name, kFlags)) node.fields[name].word = value == "false" ? "FALSE" : "TRUE";
   }
   const std::string container = tag.attribute("containerField");
   if (around == nullptr)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "holdfast/holdfast.h"
+#include "holdfast/statistics.h"
 #include "io_samples.h"
 #include "vrml_samples.h"
 
@@ -37,7 +38,7 @@ TEST_F(Vrml, FacesStandWhereTheScenePlacesThem) {
   EXPECT_EQ(s.vertices[8 + 2], (Point{-1, -1, 0}));
   EXPECT_EQ(s.names.facets, (std::map<int, std::string>{{1, "cube"}, {2, "cube"}}));
   EXPECT_EQ(remarks(s),
-            (std::vector<std::string>{"1 shape that is no set of faces (Box) is left out",
+            (std::vector<std::string>{"1 shape that is no set of faces (Cylinder) is left out",
                                       "1 scene of another file is left out",
                                       "1 node of a kind that the file defines is left out",
                                       "6 polygons of more than three corners are cut into triangles"}));
@@ -50,8 +51,55 @@ TEST_F(Vrml, FacesStandWhereTheScenePlacesThem) {
 }
 
 TEST_F(Vrml, WithoutFacesTheErrorSaysWhatIsThere) {
-  EXPECT_EQ(error("#VRML V2.0 utf8\nShape { geometry Box { } } Shape { geometry Cone { } }\n"),
-            "the file holds no vertices; 2 shapes that are no sets of faces (Box, Cone) are left out");
+  EXPECT_EQ(error("#VRML V2.0 utf8\nShape { geometry Sphere { } } Shape { geometry Cone { } }\n"),
+            "the file holds no vertices; 2 shapes that are no sets of faces (Cone, Sphere) are left out");
+}
+
+TEST_F(Vrml, ShapesThatArePolyhedra) {
+  const auto volume = [](const Surface& s) { return statistics(s).volume; };
+  const auto shape = [&](const std::string& geometry) {
+    return surface("#VRML V2.0 utf8\nDEF part Shape { geometry " + geometry + " }\n");
+  };
+  const Surface box = shape("Box { size 2 3 4 }");
+  EXPECT_EQ(box.facets.size(), 12u);
+  EXPECT_DOUBLE_EQ(volume(box), 24);
+  EXPECT_EQ(box.names.facets.begin()->second, "part");
+  EXPECT_DOUBLE_EQ(volume(surface("#VRML V1.0 ascii\nCube { width 3 }\n")), 12);
+  EXPECT_DOUBLE_EQ(volume(shape("Extrusion { }")), 4);
+  EXPECT_DOUBLE_EQ(volume(shape("Extrusion { ccw FALSE }")), -4);
+  EXPECT_EQ(shape("Extrusion { beginCap FALSE endCap FALSE }").facets.size(), 8u);
+  EXPECT_NEAR(volume(shape("Extrusion { spine [0 0 0, 0 0 3] scale [1 1, 0.5 0.5] }")), 7, 1e-12);
+  EXPECT_NEAR(volume(shape("Extrusion { spine [0 0 0, 0 -2 0] orientation 0 1 0 0.785398 }")), 8, 1e-12);
+  // A square ring, and a path with a bend.
+  const Surface ring = shape(
+      "Extrusion { crossSection [.5 .5, .5 -.5, -.5 -.5, -.5 .5, .5 .5] spine [4 0 4, 4 0 -4, -4 0 -4, -4 0 "
+      "4, 4 0 4] }");
+  EXPECT_EQ(ring.facets.size(), 32u);
+  EXPECT_TRUE(diagnose(ring.view()).empty());
+  EXPECT_GT(volume(ring), 0);
+  EXPECT_GT(
+      volume(shape(
+          "Extrusion { crossSection [.5 .5, .5 -.5, -.5 -.5, -.5 .5, .5 .5] spine [0 0 0, 0 4 0, 4 4 0] }")),
+      0);
+  const Surface grid = shape("ElevationGrid { xDimension 3 zDimension 2 xSpacing 2 height [0 1 0 0 0 1] }");
+  EXPECT_EQ(grid.facets.size(), 4u);
+  EXPECT_EQ(grid.vertices[4], (Point{2, 0, 1}));
+  EXPECT_EQ(
+      error("#VRML V2.0 utf8\nShape { geometry ElevationGrid { xDimension 3 zDimension 2 height [0 1] } }\n"),
+      "line 2: an ElevationGrid with 2 heights, which are not xDimension times zDimension");
+  for (const char* sizes : {"xDimension 0.5 zDimension 4", "xDimension -1 zDimension -2"})
+    EXPECT_NE(error(std::string("#VRML V2.0 utf8\nShape { geometry ElevationGrid { height [0 1] ") + sizes +
+                    " } }\n")
+                  .find("2 heights"),
+              std::string::npos);
+  EXPECT_EQ(error("#VRML V2.0 utf8\nShape { geometry Extrusion { spine 0 0 } }\n"),
+            "line 2: the field 'spine' has 2 numbers, no multiple of 3");
+  EXPECT_EQ(error("#VRML V2.0 utf8\nShape { geometry Extrusion { spine 0 0 0 } }\n"),
+            "line 2: an Extrusion needs two points of its spine and of its cross-section");
+  put(folder_ / "a.x3d",
+      "<X3D><Scene><Shape><Box size='1 2 3'/></Shape><Transform translation='9 0 0'><Shape>"
+      "<Extrusion endCap='false' scale='2 2'/></Shape></Transform></Scene></X3D>");
+  EXPECT_EQ(read_surface(folder_ / "a.x3d").facets.size(), 12u + 10u);
 }
 
 TEST_F(Vrml, TheFirstVersionHasAState) {
@@ -63,7 +111,7 @@ TEST_F(Vrml, TheFirstVersionHasAState) {
   EXPECT_EQ(s.vertices[8 + 1], (Point{1, 0, 0}));
   EXPECT_EQ(s.names.facets, (std::map<int, std::string>{{1, "one"}, {2, "one"}, {3, "last"}}));
   EXPECT_EQ(remarks(s),
-            (std::vector<std::string>{"2 shapes that are no sets of faces (Cube, Sphere) are left out"}));
+            (std::vector<std::string>{"2 shapes that are no sets of faces (Cone, Sphere) are left out"}));
 }
 
 TEST_F(Vrml, ErrorsNameTheLine) {

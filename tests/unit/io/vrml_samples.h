@@ -28,7 +28,7 @@ DEF T Transform {
   ]
 }
 DEF mirrored Transform { center 0 0 1 rotation 0 0 1 1.5707963267948966 scale -1 1 1 children USE cube }
-Switch { whichChoice 2 choice [ Shape { geometry USE faces } NULL Group { children Shape { geometry Box { size 1 1 1 } } } ] }
+Switch { whichChoice 2 choice [ Shape { geometry USE faces } NULL Group { children Shape { geometry Cylinder { height 1 } } } ] }
 LOD { range [ 5 ] level [ Group { } Shape { geometry USE faces } ] }
 Inline { url "other.wrl" }
 DEF clock TimeSensor { loop TRUE }
@@ -50,7 +50,7 @@ Separator {
     Scale { scaleFactor 1 1 3 }
     USE one
   }
-  Switch { whichChild -3 Sphere { radius 1 } Cube { } }
+  Switch { whichChild -3 Sphere { radius 1 } Cone { } }
   Switch { Cone { } }
   TransformSeparator { Transform { translation 1 1 1 } }
   DEF last IndexedFaceSet { coordIndex [ 0, 1, 2 ] }
