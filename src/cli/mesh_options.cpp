@@ -12,32 +12,11 @@
 #include "idle_options.h"
 #include "limits.h"
 #include "named.h"
-#include "number.h"
+#include "number_list.h"
 #include "paste_options.h"
 
 namespace holdfast::cli {
 namespace {
-
-/// Splits the text at commas into exactly `count` finite numbers. Throws UsageError; `what` names what is
-/// expected.
-std::vector<double> numbers(const char* option, const std::string& text, std::size_t count,
-                            const char* what) {
-  std::vector<double> values;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (;;) {
-    double value = 0;
-    const auto [stop, error] = parse_double(at, end, value);
-    if (error != std::errc() || !std::isfinite(value)) break;
-    values.push_back(value);
-    at = stop;
-    if (at == end || *at != ',') break;
-    ++at;
-  }
-  if (at != end || values.size() != count)
-    throw UsageError(fmt::format("{}{}: {} expected", option, text, what));
-  return values;
-}
 
 void set_keep(Options& options, const std::string& keep) {
   if (keep == "auto") {
@@ -166,11 +145,10 @@ Options to_options(const MeshArguments& arguments) {
     const bool with_size = std::count(region.begin(), region.end(), ',') == 4;
     const std::vector<double> x = numbers("--region ", region, with_size ? 5 : 4,
                                           "three numbers and an id x,y,z,ID, and perhaps a size ,H, are");
-    if (x[3] != std::floor(x[3]) || std::abs(x[3]) > INT32_MAX)
-      throw UsageError("--region " + region + ": the region id must be an integer of at most 2147483647");
+    const int id = region_id_of(region, x[3]);
     if (with_size && !is_positive(x[4]))
       throw UsageError("--region " + region + ": the size must be positive");
-    options.regions.push_back({{x[0], x[1], x[2]}, static_cast<int>(x[3]), with_size ? x[4] : 0});
+    options.regions.push_back({{x[0], x[1], x[2]}, id, with_size ? x[4] : 0});
   }
   for (const std::string& step : arguments.without) {
     if (step == "flips")

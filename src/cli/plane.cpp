@@ -19,6 +19,7 @@
 #include "limits.h"
 #include "name_options.h"
 #include "named.h"
+#include "number_list.h"
 #include "plane_report.h"
 #include "report.h"
 #include "signals.h"
@@ -30,7 +31,7 @@ namespace {
 struct PlaneArguments {
   std::filesystem::path input, output, report;
   std::string input_format, format, method = "swaps", ears, stop_after, order;
-  std::vector<std::string> names;
+  std::vector<std::string> names, holes, regions;
   LimitArguments limits;
   std::uint64_t seed = 1;
   double tolerance = 0;
@@ -124,6 +125,9 @@ Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
                            {"size", arguments.size.value_or(0)},
                            {"angle", arguments.angle ? Json(*arguments.angle) : Json()},
                            {"tolerance", arguments.tolerance},
+                           {"arcs", arguments.arcs.value_or(0)},
+                           {"holes", arguments.holes},
+                           {"regions", arguments.regions},
                            {"keep_boundary", arguments.keep_boundary},
                            {"max_points", arguments.max_points},
                            {"stop_after", arguments.stop_after},
@@ -205,6 +209,36 @@ void name_parts(const PlaneArguments& arguments, PlaneMesh& mesh) {
   tell_idle_names(arguments.names, there);
 }
 
+/// A point of --hole or --region, as the plane of the file is seen. Two coordinates do for planes that are
+/// seen along z.
+PlanePoint seen_in(const PlanesInSpace& planes, const std::string& option, const std::vector<double>& x,
+                   std::size_t coordinates) {
+  if (planes.parts.size() != 1)
+    throw UsageError(option + ": the file has polygons in several planes, and each is filled as it is");
+  const std::size_t axis = planes.points.empty() ? 2 : planes.parts[0].axis;
+  if (coordinates == 2 && axis != 2)
+    throw UsageError(option +
+                     ": three coordinates are expected, as the plane is seen along another axis than z");
+  return {x[(axis + 1) % 3 % coordinates], x[(axis + 2) % 3 % coordinates]};
+}
+
+void add_holes_and_regions(const PlaneArguments& arguments, PlanesInSpace& planes) {
+  const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
+  for (const std::string& hole : arguments.holes) {
+    const std::size_t coordinates = commas(hole) == 2 ? 3 : 2;
+    const std::vector<double> x = numbers("--hole ", hole, coordinates, "two or three numbers x,y,z are");
+    const PlanePoint where = seen_in(planes, "--hole " + hole, x, coordinates);
+    planes.parts[0].plane.holes.push_back(where);
+  }
+  for (const std::string& region : arguments.regions) {
+    const std::size_t coordinates = commas(region) == 3 ? 3 : 2;
+    const std::vector<double> x =
+        numbers("--region ", region, coordinates + 1, "two or three numbers and an id x,y,z,ID are");
+    const PlanePoint where = seen_in(planes, "--region " + region, x, coordinates);
+    planes.parts[0].plane.regions.push_back({where, region_id_of(region, x[coordinates])});
+  }
+}
+
 PlaneResult solve(const PlanesInSpace& planes, const PlaneOptions& options) {
   try {
     return triangulate(planes, options);
@@ -225,8 +259,9 @@ int run(const PlaneArguments& arguments) {
       [&] {
         ReadOptions how = reading(options, arguments.input_format, arguments.tolerance);
         how.arc_step = arguments.arcs.value_or(0);
-        const PlanesInSpace planes = read_planes(arguments.input, how);
+        PlanesInSpace planes = read_planes(arguments.input, how);
         if (!arguments.quiet) tell(planes.remarks, arguments.input);
+        add_holes_and_regions(arguments, planes);
         result = solve(planes, options);
         if (result.outcome != Outcome::done) return;
         name_parts(arguments, result.mesh);
@@ -301,6 +336,12 @@ void add_plane(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   add_method(*command, *arguments);
   add_report(*command, arguments->report, "Write counts and times as JSON");
+  command->add_option("--hole", arguments->holes, "Leave the region of this point empty (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("x,y[,z]");
+  command->add_option("--region", arguments->regions, "Number the region of this point (repeatable)")
+      ->allow_extra_args(false)
+      ->option_text("x,y[,z],ID");
   add_name_option(*command, arguments->names);
   command->add_option("--format", arguments->format, "Format of the triangles, instead of by ending")
       ->option_text("FORMAT");

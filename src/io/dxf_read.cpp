@@ -11,7 +11,7 @@
 #include "io/formats.h"
 #include "io/labels.h"
 #include "io/placement.h"
-#include "surface/places.h"
+#include "surface/weld.h"
 
 namespace holdfast::io {
 namespace {
@@ -164,14 +164,10 @@ class DxfReader {
   /// Each line has its own ends in the file. Points of outlines that nothing uses would stand in the
   /// triangles' file.
   void join_points() {
-    const std::vector<Index> first = first_at_places(mesh_.vertices);
-    std::vector<Index> number(first.size());
+    std::vector<Index> number;
     std::vector<Point> points;
-    for (std::size_t v = 0; v < first.size(); ++v) {
-      const bool is_first = first[v] == v;
-      number[v] = is_first ? static_cast<Index>(points.size()) : number[first[v]];
-      if (is_first) points.push_back(mesh_.vertices[v]);
-    }
+    Welder weld(points);
+    for (const Point& vertex : mesh_.vertices) number.push_back(weld.add(vertex));
     for (Triangle& t : mesh_.facets)
       for (Index& v : t) v = number[v];
     for (Segment& s : mesh_.segments)

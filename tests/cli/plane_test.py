@@ -198,6 +198,13 @@ class Triangles(CliTest):
         self.run_program("plane", "in.dxf", "-o", "out.msh", "--arcs", "15")
         known = json.loads(self.run_program("info", "out.msh", "--json").stdout)
         self.assertEqual([(m["name"], m["segments"]) for m in known["segment_markers"]], [("wall", 3), ("inlet", 1), ("bore", 24)])
+        bored = self.run_program("plane", "in.dxf", "-o", "out.msh", "--arcs", "15", "--hole", "2,2", "--region", "0.5,0.5,0,8", "--name", "8=plate")
+        self.assertIn("in 1 region", bored.stderr)
+        known = json.loads(self.run_program("info", "out.msh", "--json").stdout)
+        self.assertEqual([(m["id"], m["name"]) for m in known["markers"]], [(8, "plate")])
+        self.assertAlmostEqual(known["area"], 16 - 12 * math.sin(math.pi / 12))
+        for wrong in (["--hole", "2"], ["--hole", "1,2,3,4"], ["--region", "1,1"], ["--region", "1,1,1.5"], ["--hole", "2,x"]):
+            self.run_program("plane", "in.dxf", "-o", "out.msh", "--arcs", "15", *wrong, expect=2)
         self.assertIn("`holdfast plane` fills outlines", self.run_program("mesh", "in.dxf", "-o", "x.vtu", expect=3).stderr)
 
 
@@ -225,6 +232,15 @@ class MarkersInSpace(CliTest):
         pieces = self.edges([(*c[:3], 0) for c in corners[:4]], [(1, 2, 11), (2, 3, 12), (3, 4, 0), (4, 1, 14)], "", "--size", "0.5")
         self.assertGreater(sum(m == 11 for _, m in pieces), 3)
         self.assertEqual({m for _, m in pieces}, {0, 11, 12, 14})
+
+    def test_holes_in_space(self):
+        corners = [(5.0, 0.0, 0.0), (5.0, 4.0, 0.0), (5.0, 4.0, 4.0), (5.0, 0.0, 4.0), (5.0, 1.0, 1.0), (5.0, 2.0, 1.0), (5.0, 2.0, 2.0), (5.0, 1.0, 2.0)]
+        self.write("in.off", "OFF\n8 2 0\n" + "".join("%r %r %r\n" % p for p in corners) + "4 0 1 2 3\n4 4 5 6 7\n")
+        self.run_program("plane", "in.off", "-o", "out.obj", "--hole", "5,1.5,1.5")
+        self.assertEqual(json.loads(self.run_program("info", "out.obj", "--json").stdout)["area"], 15)
+        self.assertIn("three coordinates", self.run_program("plane", "in.off", "-o", "out.obj", "--hole", "1.5,1.5", expect=2).stderr)
+        self.write("in.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n")
+        self.assertIn("several planes", self.run_program("plane", "in.off", "-o", "out.obj", "--hole", "0,0,0", expect=2).stderr)
 
     def test_of_polygons_in_two_planes(self):
         corners = [(0.0, 0.0, 0.0, 0), (1.0, 0.0, 0.0, 0), (1.0, 1.0, 0.0, 0), (0.0, 1.0, 0.0, 0), (1.0, 0.0, 1.0, 0), (1.0, 1.0, 1.0, 9)]
