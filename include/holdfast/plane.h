@@ -185,7 +185,8 @@ struct PlanesInSpace {
 /// Reads the same files, and polygons in space in any format that read_surface knows (.off, .obj, .ply, .poly
 /// of three dimensions, ...). If all corners lie in one plane (exactly, up to rounding or within
 /// ReadOptions::tolerance), the sides of all polygons are segments in that plane. Otherwise each polygon, or
-/// facet of a .poly, has its own plane. Throws FileError, also for polygons that lie in no plane.
+/// facet of a .poly, has its own plane. Of a .dxf, the lines are segments, too, marked and named by layers;
+/// its arcs need ReadOptions::arc_step. Throws FileError, also for polygons that lie in no plane.
 [[nodiscard]] HOLDFAST_API PlanesInSpace read_planes(const std::filesystem::path& path,
                                                      const ReadOptions& options = {});
 
