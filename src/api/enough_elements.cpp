@@ -1,7 +1,6 @@
 #include "api/enough_elements.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "numbers/elementary.h"
@@ -9,10 +8,12 @@
 namespace holdfast {
 namespace {
 
-// Shares of the number of regular elements. Uniform meshes have 0.8.
-constexpr double kEnough = 0.65, kNearlyEnough = 0.58, kMany = 1.25;
+// Shares of the number of regular elements.
+constexpr double kEnough = 0.65, kNearlyEnough = 0.58, kMany = 1.1;
+constexpr double kOfUniform = 0.8;
 constexpr double kLeastFactor = 0.5;
-constexpr unsigned kMostTries = 3;
+constexpr double kLeastScale = 0.25;  // where facets may need half as much
+constexpr unsigned kMostTries = 4;
 
 }  // namespace
 
@@ -23,41 +24,64 @@ bool are_too_few_elements(std::span<const double> elements, std::span<const doub
 
 SizesForEnough::SizesForEnough(std::vector<double> asked)
     : asked_(std::move(asked)),
-      factors_(asked_.size(), 1),
-      too_large_(asked_.size(), 1),
-      too_small_(asked_.size(), 0) {}
+      scales_(asked_.size(), 1),
+      too_large_(asked_.size(), {1, 0}),
+      too_small_(asked_.size(), {0, 0}) {}
+
+std::vector<double> SizesForEnough::factors() const {
+  std::vector<double> factors(scales_);
+  for (double& f : factors) f = std::max(f, kLeastFactor);
+  return factors;
+}
+
+double SizesForEnough::part_of_most_need() const {
+  double part = 1;
+  for (const double s : scales_) part = std::min(part, s / kLeastFactor);
+  return part;
+}
 
 bool SizesForEnough::goes_on(std::span<const double> made) {
   if (tries_ > kMostTries) return false;
   const bool is_last = tries_++ == kMostTries;
   bool changes = false;
-  for (std::size_t r = 0; r < factors_.size(); ++r) {
-    const double factor = is_last ? last(r, made[r]) : next(r, made[r]);
-    changes |= factor != factors_[r];
-    factors_[r] = factor;
+  for (std::size_t r = 0; r < scales_.size(); ++r) {
+    const double scale = is_last ? last(r, made[r]) : next(r, made[r]);
+    changes |= scale != scales_[r];
+    scales_[r] = scale;
   }
   return changes;
 }
 
-// If no better factor was found, too many elements are better than too few.
+// If no better scale was found, too many elements are better than too few.
 double SizesForEnough::last(std::size_t region, double made) const {
   const bool are_few = made < kNearlyEnough * asked_[region];
-  return are_few && too_small_[region] > 0 ? too_small_[region] : factors_[region];
+  return are_few && too_small_[region].scale > 0 ? too_small_[region].scale : scales_[region];
 }
 
-// The number of elements jumps where walls begin to get points; then a factor between two known ones is
-// tried. At the user's own size, any greater number is accepted.
+// At the user's own size, any greater number is accepted.
 double SizesForEnough::next(std::size_t region, double made) {
-  const double factor = factors_[region], asked = asked_[region];
-  const bool is_own = factor == 1;
-  if (made >= (is_own ? kEnough : kNearlyEnough) * asked && (is_own || made <= kMany * asked)) return factor;
+  const double scale = scales_[region], asked = asked_[region];
+  const bool is_own = scale == 1;
+  if (made >= (is_own ? kEnough : kNearlyEnough) * asked && (is_own || made <= kMany * asked)) return scale;
   if (made > kMany * asked) {
-    too_small_[region] = factor;
-    return std::sqrt(factor * too_large_[region]);
+    too_small_[region] = {scale, made};
+    return between(region);
   }
-  too_large_[region] = factor;
-  const double wanted = std::max(kLeastFactor, factor * numbers::cbrt(made / (kEnough * asked)));
-  return wanted > too_small_[region] ? wanted : std::sqrt(too_small_[region] * factor);
+  too_large_[region] = {scale, made};
+  const double least = scale > kLeastFactor ? kLeastFactor : kLeastScale;
+  const double wanted = std::max(least, scale * numbers::cbrt(made / (kEnough * asked)));
+  return wanted > too_small_[region].scale ? wanted : between(region);
+}
+
+// The number of elements jumps where walls begin to get points. Between two scales it is taken to be linear
+// in the density of the points.
+double SizesForEnough::between(std::size_t region) const {
+  constexpr double kNearAnEnd = 0.15;
+  const auto density = [](double scale) { return 1 / (scale * scale * scale); };
+  const Try &large = too_large_[region], &small = too_small_[region];
+  const double part = std::clamp((kOfUniform * asked_[region] - large.made) / (small.made - large.made),
+                                 kNearAnEnd, 1 - kNearAnEnd);
+  return 1 / numbers::cbrt(density(large.scale) + part * (density(small.scale) - density(large.scale)));
 }
 
 }  // namespace holdfast

@@ -20,16 +20,23 @@ class SizesForEnough {
   explicit SizesForEnough(std::vector<double> asked);
 
   /// By region, the factor for the user's size: 1 at first.
-  [[nodiscard]] const std::vector<double>& factors() const { return factors_; }
+  [[nodiscard]] std::vector<double> factors() const;
+  /// The part of what large facets may need: 1 until some region has the least factor.
+  [[nodiscard]] double part_of_most_need() const;
   /// Records the elements by region that these factors gave. Returns whether other factors remain to try.
   bool goes_on(std::span<const double> made);
 
  private:
+  struct Try {
+    double scale, made;
+  };
   [[nodiscard]] double next(std::size_t region, double made);
   [[nodiscard]] double last(std::size_t region, double made) const;
+  [[nodiscard]] double between(std::size_t region) const;
 
-  std::vector<double> asked_, factors_;
-  std::vector<double> too_large_, too_small_;  // factors by region, as far as known
+  // Scales by region: down to the least factor for the size, then the part of what facets may need as well.
+  std::vector<double> asked_, scales_;
+  std::vector<Try> too_large_, too_small_;  // as far as known
   unsigned tries_ = 0;
 };
 

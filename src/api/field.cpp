@@ -144,7 +144,8 @@ bool add_enough_points(const Attempt& attempt, BoxMesh& box, Division& division,
     field.parts.reset();
     box = unfilled.box;
     division = unfilled.division;
-    field.set_size_function(sizes.with_limits_times(search.factors(), attempt.complex(), attempt.threads));
+    field.set_size_function(sizes.with_limits_times(search.factors(), search.part_of_most_need(),
+                                                    attempt.complex(), attempt.threads));
   }
 }
 

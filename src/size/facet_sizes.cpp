@@ -85,14 +85,18 @@ void part_in_middle(std::span<Centre> centres) {
 
 }  // namespace
 
-FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threads& threads)
+FacetSizes::FacetSizes(std::span<const Facet> facets, Wanted wanted, const Threads& threads,
+                       double part_of_most_need)
     : wanted_(wanted) {
   for (Index k = 0; k < facets.size(); ++k) {
     const Facet& f = facets[k];
     const bool is_asked = f.is_asked || wanted == Wanted::anywhere;
     const double need = (is_asked ? tuning::kNeedWhereAsked : tuning::kNeedOfFacet) * longest_side(f.corners);
-    if (need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)
-      facets_.push_back({f.corners, std::min(need, tuning::kMostNeed * f.wanted), k, f.is_asked});
+    if (!(need > tuning::kFarBeyond * f.wanted || wanted == Wanted::anywhere)) continue;
+    const bool is_limit = f.is_asked && wanted == Wanted::at_corners;
+    const double most = is_limit ? tuning::kMostNeedWhereAsked * part_of_most_need : tuning::kMostNeed;
+    facets_.push_back({f.corners, std::min(need, most * f.wanted), k, f.is_asked,
+                       is_limit ? tuning::kClearanceWhereAsked : tuning::kLeastClearance});
   }
   threads.poll();
   if (facets_.empty()) return;
@@ -151,8 +155,13 @@ void FacetSizes::for_each_near(const Point& x, double rate, const double& size, 
     if (!(n.need > size) || square(n.need - size) <= square(rate) * distance2_to_box(x, n.low, n.high))
       continue;
     if (n.left != 0) {
-      stack[depth++] = n.left;
-      stack[depth++] = n.left + 1;
+      // First the one that may need more: it raises the size, so that less of the other one matters.
+      const auto rank = [&](const Node& child) {
+        return child.need - rate * std::sqrt(distance2_to_box(x, child.low, child.high));
+      };
+      const bool left_first = rank(nodes_[n.left]) > rank(nodes_[n.left + 1]);
+      stack[depth++] = left_first ? n.left + 1 : n.left;
+      stack[depth++] = left_first ? n.left : n.left + 1;
       continue;
     }
     for (std::uint32_t k = n.first; k < n.first + n.count; ++k) {
@@ -191,12 +200,12 @@ FacetSizes::Limit FacetSizes::limit(const Point& x, double size, By by) const {
 }
 
 bool FacetSizes::is_too_near(const Point& x, double size, By by) const {
-  constexpr double part = tuning::kLeastClearance;
+  constexpr double most_clearance = std::max(tuning::kLeastClearance, tuning::kClearanceWhereAsked);
   const double most = most_need(size), least = wanted_ == Wanted::anywhere ? tuning::kFarBeyond * size : 0;
   bool is_near = false;
-  for_each_near(x, tuning::kFallOfNeed + 1 / part, 0, by, [&](const Held& f, double distance) {
+  for_each_near(x, tuning::kFallOfNeed + 1 / most_clearance, 0, by, [&](const Held& f, double distance) {
     const double need = f.need > least ? std::min(f.need, most) : 0;
-    is_near = distance < part * (need - tuning::kFallOfNeed * distance);
+    is_near = distance < f.clearance * (need - tuning::kFallOfNeed * distance);
     return !is_near;
   });
   return is_near;

@@ -32,9 +32,10 @@ class FacetSizes {
   /// size would make elements larger.
   enum class By { surface, user };
   FacetSizes() = default;
-  /// Facets that can bear the desired size are left out, where it is known.
+  /// Facets that can bear the desired size are left out, where it is known. Facets that are too large for the
+  /// user's size need at most this part of what they may need otherwise.
   explicit FacetSizes(std::span<const Facet> facets, Wanted wanted = Wanted::at_corners,
-                      const Threads& threads = 1);
+                      const Threads& threads = 1, double part_of_most_need = 1);
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
   [[nodiscard]] std::size_t count() const { return facets_.size(); }
@@ -56,6 +57,7 @@ class FacetSizes {
     double need;
     Index facet;
     bool is_asked;
+    double clearance;  // part of the need at a point that is its least distance
   };
   // A box round facets first .. first + count - 1; children are nodes `left` and left + 1, none if it is 0.
   struct Node {

@@ -155,9 +155,11 @@ SizeFunction::SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds
   if (heeds_facets()) of_facets_ = sizes_of_facets(complex, threads);
 }
 
-SizeFunction SizeFunction::with_limits_times(std::span<const double> factor_of_region, const Complex& complex,
+SizeFunction SizeFunction::with_limits_times(std::span<const double> factor_of_region,
+                                             double part_of_most_need, const Complex& complex,
                                              const Threads& threads) const {
   SizeFunction other = *this;
+  other.part_of_most_need_ = part_of_most_need;
   other.factor_of_region_.assign(factor_of_region.begin(), factor_of_region.end());
   for (std::size_t r = 0; r < other.of_region_.size(); ++r) other.of_region_[r] *= factor_of_region[r];
   if (heeds_facets()) other.of_facets_ = other.sizes_of_facets(complex, threads);
@@ -180,7 +182,8 @@ FacetSizes SizeFunction::sizes_of_facets(const Complex& complex, const Threads& 
     if (facets.size() % kFacetsAPoll == 0) threads.poll();
   }
   // A function may want any size anywhere.
-  return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners, threads);
+  return FacetSizes(facets, field_ ? FacetSizes::Wanted::anywhere : FacetSizes::Wanted::at_corners, threads,
+                    part_of_most_need_);
 }
 
 void SizeFunction::limit_regions(const Sizes& sizes, std::span<const RegionSeed> seeds, const Kept& kept) {

@@ -34,9 +34,11 @@ class SizeFunction {
   SizeFunction(const Sizes& sizes, std::span<const RegionSeed> seeds, const Complex& complex,
                const SegmentTable& table, const Kept& kept, int scale, const Threads& threads = 1);
 
-  /// The same with smaller sizes than the user asks for: the limit of each region times a factor.
+  /// The same with smaller sizes than the user asks for: the limit of each region times a factor, and this
+  /// part of what large facets may need.
   [[nodiscard]] SizeFunction with_limits_times(std::span<const double> factor_of_region,
-                                               const Complex& complex, const Threads& threads = 1) const;
+                                               double part_of_most_need, const Complex& complex,
+                                               const Threads& threads = 1) const;
 
   /// Of a vertex of the complex; infinite for one without edges.
   [[nodiscard]] std::size_t vertex_count() const { return of_vertex_.size(); }
@@ -106,6 +108,7 @@ class SizeFunction {
   std::function<Metric(const Point&)> metric_;
   bool is_concurrent_;
   std::vector<double> of_vertex_;
+  double part_of_most_need_ = 1;
   FacetSizes of_facets_;
 };
 

@@ -79,6 +79,29 @@ TEST(FacetSizes, WhatTheUserAsksForDoesNotMakeSizesOfTheSurfaceLarger) {
   EXPECT_TRUE(of_surface.is_too_near(x, size, FacetSizes::By::surface));
 }
 
+// The user's size can be made up for elsewhere, so elements next to a facet may be larger, and points are
+// farther from it.
+TEST(FacetSizes, AFacetNeedsMoreWhereTheUserAsks) {
+  const double wanted = 0.01;
+  FacetSizes::Facet asked = right_triangle(1, wanted);
+  asked.is_asked = true;
+  const Point x{0.2, 0.2, 0};
+  const auto most = [&](const FacetSizes& sizes) { return sizes.bearable(x, wanted); };
+  const double whole = tuning::kMostNeedWhereAsked * wanted;
+  EXPECT_DOUBLE_EQ(most(FacetSizes(std::array{asked})), whole);
+  EXPECT_DOUBLE_EQ(most(FacetSizes(std::array{asked}, FacetSizes::Wanted::at_corners, 1, 0.6)), 0.6 * whole);
+  EXPECT_DOUBLE_EQ(most(FacetSizes(std::array{asked}, FacetSizes::Wanted::anywhere, 1, 0.6)),
+                   tuning::kMostNeed * wanted);
+  EXPECT_DOUBLE_EQ(
+      most(FacetSizes(std::array{right_triangle(1, wanted)}, FacetSizes::Wanted::at_corners, 1, 0.6)),
+      tuning::kMostNeed * wanted);
+  const double clearance = tuning::kClearanceWhereAsked;
+  const double height = clearance * whole / (1 + clearance * tuning::kFallOfNeed);
+  const FacetSizes sizes(std::array{asked});
+  EXPECT_TRUE(sizes.is_too_near({0.2, 0.2, 0.99 * height}, wanted));
+  EXPECT_FALSE(sizes.is_too_near({0.2, 0.2, 1.01 * height}, wanted));
+}
+
 // The tree finds the same as a search over all facets.
 TEST(FacetSizes, AllAreAsEachAlone) {
   std::mt19937_64 random(1);
@@ -90,6 +113,7 @@ TEST(FacetSizes, AllAreAsEachAlone) {
     for (Point& p : f.corners)
       for (std::size_t k = 0; k < 3; ++k) p[k] = at[k] + size * any(random);
     f.wanted = 0.02 * any(random);
+    f.is_asked = any(random) < 0.5;
   }
   const FacetSizes all(facets);
   for (int k = 0; k < 500; ++k) {
