@@ -177,25 +177,28 @@ void tell(const Labels& labels, std::string_view format, std::vector<Remark>& re
                            std::string(format) + " allows"});
 }
 
+std::size_t marked(std::span<const int> markers) {
+  return static_cast<std::size_t>(
+      std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
+}
+
+void tell_without_place(std::size_t count, const char* one, const char* many, std::string_view format,
+                        std::vector<Remark>& remarks) {
+  if (count == 0) return;
+  remarks.push_back(
+      {RemarkKind::not_held, count,
+       counted(count, one, many) + (count == 1 ? " has" : " have") + " no place in " + std::string(format)});
+}
+
 void tell_names(const Names& names, std::string_view format, std::vector<Remark>& remarks) {
   std::size_t count = 0;
   for (const auto* of : {&names.facets, &names.regions, &names.segments, &names.vertices})
     count += of->size();
-  if (count > 0)
-    remarks.push_back({RemarkKind::not_held, count,
-                       counted(count, "name", "names") + (count == 1 ? " has" : " have") + " no place in " +
-                           std::string(format)});
+  tell_without_place(count, "name", "names", format, remarks);
 }
 
 void tell_marked_vertices(const Volume& volume, std::string_view format, std::vector<Remark>& remarks) {
-  const auto& markers = volume.vertex_markers;
-  const auto count = static_cast<std::size_t>(
-      std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
-  if (count > 0)
-    remarks.push_back({RemarkKind::not_held, count,
-                       std::to_string(count) +
-                           (count == 1 ? " vertex's marker has" : " vertices' markers have") +
-                           " no place in " + std::string(format)});
+  tell_without_place(marked(volume.vertex_markers), "vertex's marker", "vertices' markers", format, remarks);
 }
 
 void write_id_comments(AtomicWriter& out, std::string_view mark, const Labels& labels) {

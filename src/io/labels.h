@@ -93,6 +93,12 @@ class NamedIds {
   std::set<int> used_;
 };
 
+/// How many markers are not 0.
+[[nodiscard]] std::size_t marked(std::span<const int> markers);
+/// Says that so many things ("marker", "markers") have no place in `format`, if there are any.
+void tell_without_place(std::size_t count, const char* one, const char* many, std::string_view format,
+                        std::vector<Remark>& remarks);
+
 /// Says how many ids have names that `format` cannot store; 0, which everything without an id has, is one.
 void tell_names(const Names& names, std::string_view format, std::vector<Remark>& remarks);
 

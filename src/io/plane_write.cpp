@@ -13,7 +13,6 @@
 #include "io/vtk_cells.h"
 #include "io/vtu_arrays.h"
 #include "numbers/float_environment.h"
-#include "text/count.h"
 
 namespace holdfast {
 namespace io {
@@ -115,11 +114,7 @@ void write_grid(AtomicWriter& out, const PlaneMesh& mesh, const WriteOptions& op
 /// What .off does not hold: a single region says nothing.
 void tell_not_in_off(const PlaneMesh& mesh, std::vector<Remark>& remarks) {
   const auto tell_markers = [&](const std::vector<int>& markers, const char* one, const char* many) {
-    const auto count = static_cast<std::size_t>(
-        std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
-    if (count > 0)
-      remarks.push_back({RemarkKind::not_held, count,
-                         counted(count, one, many) + (count == 1 ? " has" : " have") + " no place in .off"});
+    tell_without_place(marked(markers), one, many, ".off", remarks);
   };
   if (std::set<int>(mesh.regions.begin(), mesh.regions.end()).size() > 1)
     tell_markers(mesh.regions, "triangle's region", "triangles' regions");

@@ -12,7 +12,6 @@
 #include "numbers/float_environment.h"
 #include "numbers/sorted.h"
 #include "surface/isolated.h"
-#include "text/count.h"
 
 namespace holdfast {
 namespace io {
@@ -218,11 +217,6 @@ void require_consistent(const Surface& surface) {
   require_indices(surface);
 }
 
-std::size_t marked(const std::vector<int>& markers) {
-  return static_cast<std::size_t>(
-      std::count_if(markers.begin(), markers.end(), [](int marker) { return marker != 0; }));
-}
-
 }  // namespace
 
 Volume as_volume(const Surface& surface) {
@@ -255,10 +249,7 @@ std::vector<Remark> not_held(const std::filesystem::path& path, const Surface& s
   const io::SurfaceFormat& format = io::format_of(path, options.format);
   std::vector<Remark> remarks;
   const auto say = [&](std::size_t count, const char* one, const char* many) {
-    if (count == 0) return;
-    remarks.push_back({RemarkKind::not_held, count,
-                       counted(count, one, many) + (count == 1 ? " has" : " have") + " no place in " +
-                           std::string(format.extension)});
+    io::tell_without_place(count, one, many, format.extension, remarks);
   };
   if (!format.markers) say(surface.facet_markers.size(), "marker", "markers");
   if (!format.segments) say(surface.segments.size(), "segment", "segments");

@@ -1,32 +1,11 @@
-// UTF-16 by RFC 2781, UTF-8 by RFC 3629.
+// UTF-16 by RFC 2781.
 #include "io/utf16.h"
 
 #include <cstdint>
 
+#include "text/utf8.h"
+
 namespace holdfast::io {
-namespace {
-
-void append_utf8(std::string& text, std::uint32_t c) {
-  const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
-  const auto put_rest = [&](unsigned shift) { put(0x80U | ((c >> shift) & 0x3FU)); };
-  if (c < 0x80U) {
-    put(c);
-  } else if (c < 0x800U) {
-    put(0xC0U | (c >> 6U));
-    put_rest(0);
-  } else if (c < 0x10000U) {
-    put(0xE0U | (c >> 12U));
-    put_rest(6);
-    put_rest(0);
-  } else {
-    put(0xF0U | (c >> 18U));
-    put_rest(12);
-    put_rest(6);
-    put_rest(0);
-  }
-}
-
-}  // namespace
 
 std::optional<std::string> from_utf16(std::string_view bytes) {
   const bool little = bytes.starts_with("\xFF\xFE"), big = bytes.starts_with("\xFE\xFF");

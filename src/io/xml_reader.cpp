@@ -9,6 +9,7 @@
 #include "io/text_reader.h"
 #include "text/markup.h"
 #include "text/parse.h"
+#include "text/utf8.h"
 
 namespace holdfast::io {
 namespace {
@@ -31,10 +32,7 @@ std::pair<std::string, std::size_t> character_by_number(std::string_view text) {
   const bool is_character = code > 0 && code < 0x110000 && (code < 0xD800 || code > 0xDFFF);
   if (result.ec != std::errc() || result.ptr == end || *result.ptr != ';' || !is_character) return {};
   std::string bytes;
-  const int behind = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
-  constexpr std::uint32_t kLead[] = {0, 0xC0, 0xE0, 0xF0};
-  bytes += static_cast<char>(kLead[behind] | code >> (6 * behind));
-  for (int i = behind - 1; i >= 0; --i) bytes += static_cast<char>(0x80 | (code >> (6 * i) & 0x3F));
+  append_utf8(bytes, code);
   return {bytes, static_cast<std::size_t>(result.ptr + 1 - text.data())};
 }
 
