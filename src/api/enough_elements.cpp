@@ -14,6 +14,7 @@ constexpr double kOfUniform = 0.8;
 constexpr double kLeastFactor = 0.5;
 constexpr double kLeastScale = 0.25;  // where facets may need half as much
 constexpr unsigned kMostTries = 4;
+constexpr double kCostly = 100'000, kLeastCostlyStep = 0.65;
 
 }  // namespace
 
@@ -69,7 +70,10 @@ double SizesForEnough::next(std::size_t region, double made) {
   }
   too_large_[region] = {scale, made};
   const double least = scale > kLeastFactor ? kLeastFactor : kLeastScale;
-  const double wanted = std::max(least, scale * numbers::cbrt(made / (kEnough * asked)));
+  // A filling with too many elements takes the longest.
+  const double least_step = asked > kCostly ? kLeastCostlyStep : 0;
+  const double step = std::max(least_step, numbers::cbrt(made / (kEnough * asked)));
+  const double wanted = std::max(least, scale * step);
   return wanted > too_small_[region].scale ? wanted : between(region);
 }
 

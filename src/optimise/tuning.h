@@ -165,13 +165,13 @@ inline constexpr Brief kBrief;
   if (!lowers_shares) return passes;
   passes.aim = 0.46;  // 27 degrees
   passes.rounds = 3;
-  passes.work_per_tet = 1;
+  passes.work_per_tet = 1.3;
   passes.inserted_per_tet = 0.042;
   passes.least_work = 2400;
   passes.most_shares = 1;  // what was left need not be inside for lack of work
   passes.points_must_pay = true;
   passes.patient_rounds = 2;
-  passes.hopeless_sine = 0.3;  // 17 degrees: elements below hardly ever leave a share
+  passes.hopeless_sine = 0.33;  // 19 degrees: elements below hardly ever leave a share
   passes.saturation = 0.1;
   return passes;
 }
