@@ -69,7 +69,7 @@ class Monitor {
   const std::function<bool(const Progress&)>& progress_;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point last_told_;
-  std::chrono::steady_clock::time_point last_measured_;
+  std::chrono::steady_clock::time_point last_measured_;  // at first the beginning of the clock
   std::chrono::steady_clock::time_point last_looked_;
   static constexpr unsigned kMostCallsALook = 16;  // the clock then takes little of the time
   unsigned calls_ = 0, calls_a_look_ = 1;

@@ -276,7 +276,8 @@ TEST(TasksInParts, AnErrorInOneIsPassedOnAndInterruptsTheOthers) {
                std::runtime_error);
   options.progress = [](const Progress&) { return false; };
   const auto poll_for_long = [](std::size_t, Monitor& own) {
-    while (seconds_of_this_thread() < 20) own.poll(Stage::optimise, 0);
+    const double end = seconds_of_this_thread() + 20;
+    while (seconds_of_this_thread() < end) own.poll(Stage::optimise, 0);
     ADD_FAILURE() << "nobody told";
   };
   EXPECT_THROW(parallel_monitored(3, 6, monitor, {0, 1}, poll_for_long), Interrupted);
