@@ -27,14 +27,14 @@ _STAGES, _ORDERS = ("delaunay", "partition", "swap"), ("given", "random", "halvi
 class PlaneMesh:
     """Triangles in the plane, as read-only arrays.
 
-    Points 0 to `n_input_points - 1` are the given points, bit for bit.
+    Points 0 to `n_input_points - 1` are the given points, bit for bit; after `repair`, those that stay.
     """
 
     def __init__(self, result: _core.PlaneResult) -> None:
         self._result = result
         self._report: Optional[dict[str, Any]] = None
         self.n_input_points: int = result.n_input_points
-        """Number of given points. The points after them were added for `size` or `angle`."""
+        """Number of given points. The points after them were added for `size`, `angle` or `repair`."""
         self.remarks: list[str] = list(result.remarks)
         """What the file also has, or has in another form."""
 
@@ -127,6 +127,7 @@ def plane(
     order: Optional[str] = None,
     tolerance: float = 0.0,
     arcs: Optional[float] = None,
+    repair: Union[bool, float] = False,
     seed: int = 1,
     format: Optional[str] = None,
     time_limit: Optional[float] = None,
@@ -182,6 +183,10 @@ def plane(
     arcs
         Divide the arcs of a .dxf into straight pieces of at most so many degrees, 0.1 to 120; by default they are
         refused.
+    repair
+        First cut segments where they cross, overlap or pass through points, and join points at one place. A length also
+        joins points within it of each other and of segments. `report["repair"]` says what was done. Points that
+        become others are left out of (n, 2) points, and stay unused in space; new points come after those that stay.
     seed
         The seed of the random orders.
     format
@@ -233,6 +238,7 @@ def plane(
         stop_after_swaps=swaps,
         order=order,
         arcs=0.0 if arcs is None else _positive(arcs, "arcs"),
+        repair=_weld(repair),
         seed=whole(seed, "seed"),
     )
     if isinstance(points, (str, bytes, os.PathLike)):
@@ -315,6 +321,13 @@ def _angle(angle: Any) -> float:
     if not 0 <= degrees <= 34:
         raise ValueError(f"angle={degrees}: 0 to 34 degrees are expected")
     return degrees
+
+
+def _weld(repair: Union[bool, float]) -> Optional[float]:
+    """The distance within which a repair joins points; None for no repair."""
+    if isinstance(repair, (bool, np.bool_)):
+        return 0.0 if repair else None
+    return _positive(repair, "repair")
 
 
 def _coordinates(values: Any) -> Array:

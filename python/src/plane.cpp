@@ -6,12 +6,14 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "arrays.h"
+#include "holdfast/plane_repair.h"
 #include "limits.h"
 #include "named.h"
 #include "names.h"
@@ -27,7 +29,8 @@ struct PlaneRun {
   PlaneResult result;
   std::vector<Remark> remarks;
   bool stopped = false;
-  std::size_t input_points = 0;
+  std::size_t input_points = 0;  ///< with a repair: those that stay
+  std::optional<PlaneRepairReport> repaired;
   std::string report;  ///< of a run that was pickled
 };
 
@@ -75,6 +78,31 @@ Plane plane_from(const py::tuple& given) {
   return plane;
 }
 
+std::size_t points_of(const Plane& plane) { return plane.points.size(); }
+std::size_t points_of(const PlanesInSpace& planes) {
+  const bool is_plane = planes.points.empty() && planes.parts.size() == 1;
+  return is_plane ? points_of(planes.parts[0].plane) : planes.points.size();
+}
+
+Plane& result_of(PlaneRepair& repair) { return repair.plane; }
+PlanesInSpace& result_of(PlanesRepair& repair) { return repair.planes; }
+
+/// Repairs what is given. Returns false if there is no result.
+template <typename Planes>
+bool repair_first(Planes& given, double weld, const PlaneOptions& how, PlaneRun& run) {
+  RepairOptions options;
+  static_cast<Limits&>(options) = how;
+  options.weld = weld;
+  options.progress = how.progress;
+  auto repaired = repair(given, options);
+  run.result.outcome = repaired.outcome;
+  run.result.message = repaired.message;
+  run.repaired = repaired.report;
+  given = std::move(result_of(repaired));
+  run.input_points = points_of(given) - repaired.report.new_points;
+  return repaired.outcome == Outcome::done;
+}
+
 template <typename Make>
 std::shared_ptr<PlaneRun> solve(const py::dict& options, const py::object& progress, Make&& planes) {
   PlaneOptions how = options_from(options);
@@ -82,14 +110,13 @@ std::shared_ptr<PlaneRun> solve(const py::dict& options, const py::object& progr
   how.progress = [&watch](double fraction) { return watch.go_on("plane", fraction); };
   auto run = std::make_shared<PlaneRun>();
   run->stopped = how.stop_after.has_value();
+  std::optional<double> weld;
+  if (!options["repair"].is_none()) weld = value_of<double>(options, "repair");
   const py::gil_scoped_release unlocked;
-  const auto given = planes(watch, how);
-  run->input_points = given.points.size();
-  if constexpr (std::is_same_v<decltype(given), const PlanesInSpace>) {
-    if (given.points.empty() && given.parts.size() == 1)
-      run->input_points = given.parts[0].plane.points.size();
-  }
+  auto given = planes(watch, how);
+  run->input_points = points_of(given);
   run->remarks = given.remarks;
+  if (weld && !repair_first(given, *weld, how, *run)) return run;
   run->result = triangulate(given, how);
   return run;
 }
@@ -158,7 +185,7 @@ std::vector<std::string> save(const PlaneRun& run, const py::object& file, const
 
 std::string report_of(const PlaneRun& run) {
   if (!run.report.empty()) return run.report;
-  return reports::text_of(reports::to_json(run.result, reports::Json::object(), run.stopped));
+  return reports::text_of(reports::to_json(run.result, reports::Json::object(), run.stopped, run.repaired));
 }
 
 py::tuple pickled(const py::object& self) {

@@ -101,6 +101,27 @@ def test_formats_and_names(tmp_path):
         mesh.save(tmp_path / "a.step")
 
 
+def test_repair():
+    # A cross in a square, as lines of a drawing; one end is 1e-7 short of a side.
+    points = np.array([(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (1, 2), (0, 1), (2 - 1e-7, 1)], float)
+    segments = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (6, 7)]
+    with pytest.raises(holdfast.InvalidSurface):
+        holdfast.plane(points, segments)
+    mesh = holdfast.plane(points, segments, segment_markers=[1, 1, 1, 1, 2, 3], repair=True)
+    assert mesh.n_input_points == 8 and len(mesh.points) == 9 and (mesh.points[:8] == points).all()
+    assert set(mesh.regions) == {1, 2, 3}
+    assert mesh.report["repair"]["cut_segments"] == 5 and sorted(set(mesh.segment_markers)) == [1, 2, 3]
+    joined = holdfast.plane(points, segments, repair=1e-6)
+    assert set(joined.regions) == {1, 2, 3, 4} and joined.report["repair"]["max_displacement"] <= 1e-6
+    space = holdfast.plane(np.c_[points, points.sum(axis=1)], segments, repair=True)
+    assert space.points.shape == (9, 3) and tuple(space.points[8]) == (1, 1, 2)
+    assert "repair" not in holdfast.plane(points[:4], segments[:4]).report
+    with pytest.raises(ValueError, match="repair"):
+        holdfast.plane(points, segments, repair=-1.0)
+    with pytest.raises(TypeError, match="repair"):
+        holdfast.plane(points, segments, repair="yes")
+
+
 def test_drawings(tmp_path):
     corners = [word for x, y in ((0, 0), (2, 0)) for word in (10, x, 20, y, 42, 1)]
     words = [0, "SECTION", 2, "ENTITIES", 0, "LWPOLYLINE", 8, "disc", 70, 1, *corners, 0, "ENDSEC", 0, "EOF"]

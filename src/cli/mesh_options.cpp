@@ -125,12 +125,7 @@ std::optional<RepairOptions> repair_options(const MeshArguments& arguments, cons
   static_cast<Limits&>(repair) = options;
   repair.threads = options.threads;
   take_repair_ways(arguments.repair_ways, repair);
-  if (*arguments.repair != "true") {
-    repair.weld =
-        numbers("--repair=", *arguments.repair, 1, "a length, within which vertices are joined, is")[0];
-    if (repair.weld < 0)
-      throw UsageError("--repair=" + *arguments.repair + ": the length must not be negative");
-  }
+  repair.weld = weld_of(*arguments.repair);
   return repair;
 }
 

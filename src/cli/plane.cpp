@@ -20,7 +20,9 @@
 #include "name_options.h"
 #include "named.h"
 #include "number_list.h"
+#include "plane_repair.h"
 #include "plane_report.h"
+#include "repair_options.h"
 #include "report.h"
 #include "signals.h"
 #include "summary.h"
@@ -36,6 +38,7 @@ struct PlaneArguments {
   std::uint64_t seed = 1;
   double tolerance = 0;
   std::optional<double> size, angle, arcs;
+  std::optional<std::string> repair;  ///< the tolerance, or "true"
   std::size_t max_points = PlaneOptions{}.max_points;
   bool partition_first = false, delaunay = false, hull = false, keep_boundary = false, quiet = false;
 };
@@ -113,7 +116,8 @@ PlaneOptions to_options(const PlaneArguments& arguments) {
   return options;
 }
 
-Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
+Json report_of(const PlaneArguments& arguments, const PlaneResult& result,
+               const std::optional<PlaneRepairReport>& repaired) {
   return reports::to_json(result,
                           {{"input", arguments.input.string()},
                            {"output", arguments.output.string()},
@@ -126,6 +130,7 @@ Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
                            {"angle", arguments.angle ? Json(*arguments.angle) : Json()},
                            {"tolerance", arguments.tolerance},
                            {"arcs", arguments.arcs.value_or(0)},
+                           {"repair", arguments.repair ? Json(*arguments.repair) : Json(nullptr)},
                            {"holes", arguments.holes},
                            {"regions", arguments.regions},
                            {"keep_boundary", arguments.keep_boundary},
@@ -135,7 +140,7 @@ Json report_of(const PlaneArguments& arguments, const PlaneResult& result) {
                            {"seed", arguments.seed},
                            {"time_limit", arguments.limits.time_limit.value_or(0)},
                            {"memory_limit", arguments.limits.memory_limit.value_or(0)}},
-                          !arguments.stop_after.empty());
+                          !arguments.stop_after.empty(), repaired);
 }
 
 /// Reports what refinement did and what is left.
@@ -167,12 +172,16 @@ int conclude(const PlaneArguments& arguments, const PlaneResult& result) {
     return exit_done;
   }
   say("holdfast: {}: {}; nothing was written\n", arguments.input.string(), result.message);
+  if (result.outcome == Outcome::not_representable) return exit_not_representable;
   if (result.outcome != Outcome::invalid_input) return exit_limit;
   for (const Defect& defect :
        std::span(result.defects).first(std::min(shown_in_passing, result.defects.size())))
     say("{}: {}\n", name(defect.kind), defect.message);
   if (result.defects.size() > shown_in_passing)
     say("... and {} more; --report FILE.json lists them\n", result.defects.size() - shown_in_passing);
+  if (are_repairable(result.defects))
+    say("--repair cuts segments where they meet; --repair=T also joins points within T of segments and of "
+        "each other\n");
   return exit_invalid_surface;
 }
 
@@ -249,11 +258,14 @@ PlaneResult solve(const PlanesInSpace& planes, const PlaneOptions& options) {
 
 int run(const PlaneArguments& arguments) {
   const PlaneOptions options = to_options(arguments);
+  std::optional<double> weld;
+  if (arguments.repair) weld = weld_of(*arguments.repair);
   FilesOfRun files;
   WriteOptions writing = target_of(files, arguments);
   cancel_by_flag();
   watch_writing(writing, options);
   PlaneResult result;
+  std::optional<PlaneRepairReport> repaired;
   work_or_report(
       options,
       [&] {
@@ -261,6 +273,15 @@ int run(const PlaneArguments& arguments) {
         how.arc_step = arguments.arcs.value_or(0);
         PlanesInSpace planes = read_planes(arguments.input, how);
         if (!arguments.quiet) tell(planes.remarks, arguments.input);
+        if (weld) {
+          PlanesRepair repair = repair_planes(planes, *weld, options);
+          repaired = repair.report;
+          result.outcome = repair.outcome;
+          result.message = repair.message;
+          if (repair.outcome != Outcome::done) return;
+          if (!arguments.quiet) say("repair: {}\n", summary_of(repair.report));
+          planes = std::move(repair.planes);
+        }
         add_holes_and_regions(arguments, planes);
         result = solve(planes, options);
         if (result.outcome != Outcome::done) return;
@@ -271,9 +292,9 @@ int run(const PlaneArguments& arguments) {
       [&](Outcome outcome, const std::string& message) {
         result.outcome = outcome;
         result.message = message;
-        write_json(arguments.report, report_of(arguments, result));
+        write_json(arguments.report, report_of(arguments, result, repaired));
       });
-  write_json(arguments.report, report_of(arguments, result));
+  write_json(arguments.report, report_of(arguments, result, repaired));
   return conclude(arguments, result);
 }
 
@@ -351,6 +372,12 @@ void add_plane(CLI::App& app, Command& chosen) {
       ->add_option("--arcs", arguments->arcs,
                    ".dxf: divide arcs into straight pieces of at most DEG degrees (else they are refused)")
       ->option_text("DEG");
+  command
+      ->add_flag(
+          "--repair", arguments->repair,
+          "First cut segments where they cross, overlap or pass through points; T joins points within it "
+          "of each other, and of segments")
+      ->option_text("[=T]");
   add_limits(*command, arguments->limits);
   add_quiet(*command, arguments->quiet);
   command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

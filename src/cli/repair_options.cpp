@@ -1,6 +1,8 @@
 #include "repair_options.h"
 
+#include "command.h"
 #include "limits.h"
+#include "number_list.h"
 
 namespace holdfast::cli {
 
@@ -28,6 +30,13 @@ void add_repair_ways(CLI::App& command, RepairWays& ways, const std::string& bes
 void take_repair_ways(const RepairWays& ways, RepairOptions& options) {
   options.fill_holes = ways.fill_holes;
   options.unite = ways.unite;
+}
+
+double weld_of(const std::string& repair) {
+  if (repair == "true") return 0;
+  const double weld = numbers("--repair=", repair, 1, "a length, within which vertices are joined, is")[0];
+  if (weld < 0) throw UsageError("--repair=" + repair + ": the length must not be negative");
+  return weld;
 }
 
 Json sides_to_json(const std::optional<std::size_t>& most) { return most ? Json(*most) : Json(nullptr); }

@@ -20,6 +20,9 @@ void add_repair_ways(CLI::App& command, RepairWays& ways, const std::string& bes
 
 void take_repair_ways(const RepairWays& ways, RepairOptions& options);
 
+/// The distance within which --repair[=T] joins vertices: 0 for "true", without T. Throws UsageError.
+[[nodiscard]] double weld_of(const std::string& repair);
+
 /// The number of sides for reports; null for none.
 [[nodiscard]] Json sides_to_json(const std::optional<std::size_t>& most);
 

@@ -9,7 +9,8 @@ std::size_t points_of(const PlaneMesh& mesh) {
   return mesh.in_space.empty() ? mesh.points.size() : mesh.in_space.size();
 }
 
-Json to_json(const PlaneResult& result, Json options, bool stopped) {
+Json to_json(const PlaneResult& result, Json options, bool stopped,
+             const std::optional<PlaneRepairReport>& repaired) {
   const PlaneReport& report = result.report;
   Json json = {{"input", {{"points", report.points}, {"segments", report.segments}, {"holes", report.holes}}},
                {"missing_segments", report.missing_segments},
@@ -37,6 +38,11 @@ Json to_json(const PlaneResult& result, Json options, bool stopped) {
                {"outcome", name(result.outcome)},
                {"message", result.message},
                {"defects", to_json(result.defects)}};
+  if (repaired)
+    json["repair"] = {
+        {"cut_segments", repaired->cut_segments}, {"left_out_segments", repaired->left_out_segments},
+        {"new_points", repaired->new_points},     {"joined_points", repaired->joined_points},
+        {"moved_points", repaired->moved_points}, {"max_displacement", repaired->max_displacement}};
   if (stopped) json["intermediate"] = to_json(result.intermediate);
   return json;
 }

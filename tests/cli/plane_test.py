@@ -57,6 +57,29 @@ class Triangles(CliTest):
             self.assertEqual(self.areas(*method, "--delaunay")[0], 12)
             self.assertEqual(self.report["mesh"]["regions"], 1)
 
+    def test_repair_cuts_segments_where_they_meet(self):
+        # A wall from side to side, and one across it that ends short of the sides by 1e-7.
+        d = 1e-7
+        walls = SQUARE + [(1.0, 0.0), (1.0, 4.0), (d, 2.0), (4.0 - d, 2.0)]
+        self.write("in.poly", poly(walls, RING[:4] + [(5, 6), (7, 8)]))
+        refused = self.run_program("plane", "in.poly", "-o", "out.off", expect=4)
+        self.assertIn("--repair cuts segments where they meet", refused.stderr)
+        area_of_all, points = self.areas("--repair")
+        self.assertEqual(area_of_all, 16)
+        self.assertEqual(self.report["mesh"]["regions"], 2)
+        self.assertEqual([p[:2] for p in points[:8]], walls)
+        self.assertEqual(self.report["repair"]["new_points"], 1)
+        self.assertEqual(self.report["options"]["repair"], "true")
+        told = self.run_program("plane", "in.poly", "-o", "out.off", "--repair=1e-6", "--report", "r.json")
+        self.assertIn("repair: ", told.stderr)
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["mesh"]["regions"], 4)
+        self.assertLessEqual(report["repair"]["max_displacement"], 1e-6)
+        self.run_program("plane", "in.poly", "-o", "out.off", "--repair=-1", expect=2)
+        self.write("in.poly", poly(SQUARE, RING[:4]))
+        valid = self.run_program("plane", "in.poly", "-o", "out.off", "--repair")
+        self.assertIn("repair: the segments are valid as they are", valid.stderr)
+
     def test_points_come_out_bit_for_bit_and_in_order(self):
         tiny, huge = 5e-324, 1e301
         corners = [(-0.0, -tiny), (huge, 0.0), (0.1, huge), (0.30000000000000004, 0.2)]
