@@ -141,7 +141,8 @@ class Bending {
   /// this multiplies the facets: the state is a surface at every step.
   void run(const Step& step) {
     constexpr std::size_t kGrowth = 8, kRoom = 200;
-    const std::size_t most_steps = 1000 + 60 * surface_.facets().size();
+    const std::size_t parts = surface_.facets().size() + surface_.segments().size();
+    const std::size_t most_steps = 1000 + 60 * parts;
     const std::size_t most_facets =
         std::min(how_.most_facets, surface_.living() + kGrowth * near_.size() + kRoom);
     for (std::size_t steps = 0; steps < most_steps && surface_.living() <= most_facets; ++steps) {
@@ -178,7 +179,7 @@ class Bending {
     }
     for (const Index s : here.segments) {
       if (!surface_.segment(s).lives) continue;
-      BentSegment part = surface_.take_segment(s, nearest.bound());
+      BentSegment part = surface_.take_segment(s, distance_from_origin(surface_.segment(s), through));
       const Segment ends = part.ends;
       part.ends = {ends[0], through};
       surface_.add(part);
@@ -220,7 +221,7 @@ class Bending {
           if (v == side[0] || v == side[1] || v == best || !holds(box, at(v))) continue;
           const Nearness near = beside_side(at(v), at(side[0]), at(side[1]));
           if (!(near.distance <= gap_) || !(near.distance < nearest.distance)) continue;
-          if (!has_room(here, near.bound())) continue;
+          if (!has_room(here, v, near.bound())) continue;
           nearest = near;
           best = v;
         }
@@ -233,12 +234,24 @@ class Bending {
     return {best, nearest};
   }
 
-  [[nodiscard]] bool has_room(const BentSurface::AtSide& here, double more) const {
-    const auto fits = [&](const auto& part) { return !part.lives || part.bent + more <= room_; };
+  /// Whether the facets and segments of a side may be bent to a vertex, which bends the facets by so much
+  /// more.
+  [[nodiscard]] bool has_room(const BentSurface::AtSide& here, Index v, double more) const {
+    const auto facet_fits = [&](const BentFacet& part) { return !part.lives || part.bent + more <= room_; };
+    const auto segment_fits = [&](const BentSegment& part) {
+      return !part.lives || distance_from_origin(part, v) <= room_;
+    };
     return std::all_of(here.facets.begin(), here.facets.end(),
-                       [&](Index f) { return fits(surface_.facet(f)); }) &&
+                       [&](Index f) { return facet_fits(surface_.facet(f)); }) &&
            std::all_of(here.segments.begin(), here.segments.end(),
-                       [&](Index s) { return fits(surface_.segment(s)); });
+                       [&](Index s) { return segment_fits(surface_.segment(s)); });
+  }
+
+  // All points within a distance of a segment are a convex set. So parts between vertices in it stay in it,
+  // however many they are: the distances of a segment need not be added up, as those of a facet are.
+  [[nodiscard]] double distance_from_origin(const BentSegment& part, Index v) const {
+    const auto [a, b] = state_.segments[part.origin];
+    return distance_above(at(v), at(a), at(b));
   }
 
   void bend_facet(Index f) {

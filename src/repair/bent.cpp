@@ -81,11 +81,11 @@ BentFacet BentSurface::take(Index facet, double more) {
   return taken;
 }
 
-BentSegment BentSurface::take_segment(Index segment, double more) {
+BentSegment BentSurface::take_segment(Index segment, double distance) {
   segments_[segment].lives = false;
   BentSegment taken = segments_[segment];
   taken.lives = true;
-  taken.bent += more;
+  taken.bent = std::max(taken.bent, distance);
   return taken;
 }
 

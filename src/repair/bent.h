@@ -28,7 +28,7 @@ struct BentSegment {
   Segment ends;
   Index origin;
   std::vector<Index> lists;
-  double bent = 0;
+  double bent = 0;  ///< largest distance of its points from the origin
   bool lives = true;
 };
 
@@ -56,7 +56,8 @@ class BentSurface {
   [[nodiscard]] bool had(const Segment& ends, Index origin) const;
   /// Takes out what lives, for its parts to be added: it comes back, bent by some more.
   [[nodiscard]] BentFacet take(Index facet, double more);
-  [[nodiscard]] BentSegment take_segment(Index segment, double more);
+  /// The same for a segment: no point of its parts is further than this from its origin.
+  [[nodiscard]] BentSegment take_segment(Index segment, double distance);
 
   /// What has a side, or had it before it ended.
   struct AtSide {

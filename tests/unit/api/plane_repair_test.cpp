@@ -119,6 +119,24 @@ TEST(RepairPlane, JoinsWithinADistance) {
   EXPECT_GT(repaired.report.max_displacement, 0);
 }
 
+// A long wall on which many others end, each a little short of it or beyond it.
+TEST(RepairPlane, JoinsAnyNumberOfEndsToASegment) {
+  constexpr Index kWalls = 600;
+  const double tolerance = 1e-6;
+  Plane plane = plane_of({{0, 0}, {kWalls, 0}, {kWalls, 1}, {0, 1}}, kSides);
+  for (Index k = 1; k < kWalls; ++k) {
+    const auto n = static_cast<Index>(plane.points.size());
+    const double off = (k % 2 == 0 ? 0.4 : -0.4) * tolerance;
+    plane.points.insert(plane.points.end(), {{1.0 * k, off}, {1.0 * k, 1 + off}});
+    plane.segments.push_back({n, n + 1});
+  }
+  const PlaneRepair repaired = repair(plane, within(tolerance));
+  ASSERT_EQ(repaired.outcome, Outcome::done);
+  EXPECT_EQ(repaired.report.new_points, 0u);
+  EXPECT_LE(repaired.report.max_displacement, tolerance);
+  EXPECT_EQ(triangulate(repaired.plane).report.regions, std::size_t{kWalls});
+}
+
 TEST(RepairPlane, LeavesWhatItCannotCutForDiagnose) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const PlaneRepair not_finite = repair(square_with({{nan, 0}, {1, 1}}, {{4, 5}}));
