@@ -2,10 +2,12 @@
 #include "holdfast/plane_repair.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
+#include "numbers/sorted.h"
 #include "plane/lift.h"
 
 namespace holdfast {
@@ -100,13 +102,27 @@ class Cutter {
     result_.plane.point_markers.resize(result_.plane.points.size(), 0);
   }
 
+  // Segments that are led through the same points have become the same piece.
   void put_segments() {
-    result_.segment_parents = cut_.segment_parents;
+    std::map<std::array<Index, 2>, std::size_t> at;
+    std::vector<std::vector<Index>> parents;
     for (std::size_t s = 0; s < cut_.surface.segments.size(); ++s) {
       const Segment& piece = cut_.surface.segments[s];
-      result_.plane.segments.push_back({number_[piece[0]], number_[piece[1]]});
-      if (!given_.segment_markers.empty())
-        result_.plane.segment_markers.push_back(marker_of(cut_.segment_parents[s]));
+      const Index a = number_[piece[0]], b = number_[piece[1]];
+      const auto [found, is_new] = at.emplace(std::array{std::min(a, b), std::max(a, b)}, parents.size());
+      if (is_new) {
+        result_.plane.segments.push_back({a, b});
+        parents.emplace_back();
+      }
+      const std::span<const Index> more = cut_.segment_parents[s];
+      std::vector<Index>& all = parents[found->second];
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    for (std::vector<Index>& all : parents) {
+      sort_unique(all);
+      result_.segment_parents.all.insert(result_.segment_parents.all.end(), all.begin(), all.end());
+      result_.segment_parents.first.push_back(result_.segment_parents.all.size());
+      if (!given_.segment_markers.empty()) result_.plane.segment_markers.push_back(marker_of(all));
     }
   }
   [[nodiscard]] int marker_of(std::span<const Index> parents) const {

@@ -7,6 +7,7 @@
 
 #include "io/dxf_plane.h"
 #include "numbers/elementary.h"
+#include "numbers/vector.h"
 
 namespace holdfast::io {
 namespace {
@@ -30,6 +31,12 @@ Point on_circle(const Point& centre, double radius, double degrees) {
   const Placement turn = Placement::turned({}, {0, 0, 1}, std::fmod(degrees, 360));
   const Point p = turn.of({radius, 0, 0});
   return {centre[0] + p[0], centre[1] + p[1], centre[2]};
+}
+
+/// The angle of an arc, counterclockwise: above 0 and at most 360 degrees.
+double turn_of(double from, double to) {
+  const double angle = std::fmod(to - from, 360);
+  return angle <= 0 ? angle + 360 : angle;
 }
 
 }  // namespace
@@ -63,6 +70,8 @@ bool DxfLines::add(MeshData& mesh, DxfText& text, const DxfEntity& entity, int l
     add_light_polyline(mesh, text, entity, layer);
   } else if (entity.type == "ARC" || entity.type == "CIRCLE") {
     add_arc(mesh, text, entity, layer);
+  } else if (entity.type == "ELLIPSE") {
+    add_ellipse(mesh, text, entity, layer);
   } else {
     return false;
   }
@@ -121,31 +130,62 @@ void DxfLines::add_arc(MeshData& mesh, DxfText& text, const DxfEntity& entity, i
   const double radius = text.real(entity, 40, 0);
   const double from = is_circle ? 0 : text.real(entity, 50, 0),
                to = is_circle ? 360 : text.real(entity, 51, 360);
-  if (!(radius > 0) || !std::isfinite(radius) || !std::isfinite(from) || !std::isfinite(to))
-    text.fail_at(entity.place, "an arc whose radius is not positive, or whose numbers are not finite");
-  double angle = std::fmod(to - from, 360);
-  if (angle <= 0) angle += 360;
-  const std::size_t pieces = std::max<std::size_t>(pieces_of(text, entity.place, angle), is_circle ? 3 : 1);
+  if (!(radius >= 0) || !std::isfinite(radius) || !std::isfinite(from) || !std::isfinite(to))
+    text.fail_at(entity.place, "an arc whose radius is negative, or whose numbers are not finite");
+  if (radius == 0) return;  // a point
+  const double angle = turn_of(from, to);
+  const std::size_t pieces = pieces_of(text, entity.place, angle);
   const Placement plane = placement_of_plane(text, entity);
+  const auto at = [&](double share) {
+    return plane.of(on_circle(centre, radius, share == 1 ? to : from + angle * share));
+  };
+  add_curve(mesh, pieces, is_circle, radius, at, layer);
+}
+
+// Unlike those of other lines, its coordinates are those of space. Its parameters are angles before the
+// circle is flattened.
+void DxfLines::add_ellipse(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer) {
+  const Point centre = text.point(entity, 10), major = text.point(entity, 11);
+  const double ratio = text.real(entity, 40, 1);
+  const double from = text.real(entity, 41, 0) / kDegree, to = text.real(entity, 42, 360 * kDegree) / kDegree;
+  const double radius = length(major);
+  if (!std::isfinite(radius) || !std::isfinite(ratio) || !std::isfinite(from) || !std::isfinite(to))
+    text.fail_at(entity.place, "an ellipse whose numbers are not finite");
+  if (radius == 0) return;
+  const Vector minor = cross(placement_of_plane(text, entity).of({0, 0, 1}), major);
+  const double angle = turn_of(from, to);
+  constexpr double kSixDigits = 1e-4;  // degrees: of parameters in radians
+  const bool is_whole = angle > 360 - kSixDigits;
+  const auto at = [&](double share) {
+    const Point p = on_circle({}, 1, share == 1 ? to : from + angle * share);
+    Point q{};
+    for (std::size_t k = 0; k < 3; ++k) q[k] = centre[k] + p[0] * major[k] + p[1] * ratio * minor[k];
+    return q;
+  };
+  add_curve(mesh, pieces_of(text, entity.place, angle), is_whole, radius, at, layer);
+}
+
+void DxfLines::add_curve(MeshData& mesh, std::size_t pieces, bool is_closed, double radius,
+                         const std::function<Point(double)>& at, int layer) {
+  pieces = std::max<std::size_t>(pieces, is_closed ? 3 : 1);
   const auto first = static_cast<Index>(mesh.vertices.size());
-  for (std::size_t k = 0; k <= pieces - (is_circle ? 1 : 0); ++k) {
-    const double share = static_cast<double>(k) / static_cast<double>(pieces);
-    mesh.vertices.push_back(plane.of(on_circle(centre, radius, k == pieces ? to : from + angle * share)));
-  }
+  for (std::size_t k = 0; k <= pieces - (is_closed ? 1 : 0); ++k)
+    mesh.vertices.push_back(at(static_cast<double>(k) / static_cast<double>(pieces)));
   for (std::size_t k = 0; k < pieces; ++k) {
     const auto a = static_cast<Index>(first + k);
-    mesh.add_segment({a, is_circle && k + 1 == pieces ? first : a + 1}, layer);
+    mesh.add_segment({a, is_closed && k + 1 == pieces ? first : a + 1}, layer);
   }
-  if (is_circle) return;
+  if (is_closed) return;
   arc_ends_.push_back({first, radius});
   arc_ends_.push_back({static_cast<Index>(first + pieces), radius});
 }
 
 std::size_t DxfLines::pieces_of(const DxfText& text, std::size_t place, double degrees) const {
   if (arc_step_ == 0)
-    text.fail_at(place,
-                 "an arc (ARC, CIRCLE, or a bulge of a polyline); arcs are divided into straight pieces if "
-                 "an angle for these is given (arcs, in degrees)");
+    text.fail_at(
+        place,
+        "an arc (ARC, CIRCLE, ELLIPSE, or a bulge of a polyline); arcs are divided into straight pieces if "
+        "an angle for these is given (arcs, in degrees)");
   constexpr double kRounding = 1e-9;  // 90 degrees in steps of 10 are nine pieces
   return static_cast<std::size_t>(std::max(1.0, std::ceil(degrees / arc_step_ - kRounding)));
 }

@@ -1,6 +1,7 @@
-// The lines of a DXF file, as outlines in a plane: LINE, LWPOLYLINE, POLYLINE, ARC and CIRCLE.
+// The lines of a DXF file, as outlines in a plane: LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE and ELLIPSE.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "io/dxf_text.h"
@@ -46,6 +47,10 @@ class DxfLines {
   };
   void add_light_polyline(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer);
   void add_arc(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer);
+  void add_ellipse(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer);
+  /// `at` gives its points, from 0 to 1.
+  void add_curve(MeshData& mesh, std::size_t pieces, bool is_closed, double radius,
+                 const std::function<Point(double)>& at, int layer);
   /// The number of pieces of an arc. Throws FileError if arcs are refused.
   [[nodiscard]] std::size_t pieces_of(const DxfText& text, std::size_t place, double degrees) const;
 

@@ -208,7 +208,7 @@ class DxfReader {
     if (mesh_.facets.empty() && mesh_.segments.empty())
       throw FileError(source_.path, "",
                       "holds no " + what + " (3DFACE, MESH, polyface or polygon mesh" +
-                          (for_outlines ? ", LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE)" : ")") +
+                          (for_outlines ? ", LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE)" : ")") +
                           (names.empty() ? ""
                                          : ", but " + names + "; export solids as meshes, or as STL" +
                                                (for_outlines ? "" : "; `holdfast plane` fills outlines")));

@@ -137,6 +137,23 @@ TEST(RepairPlane, JoinsAnyNumberOfEndsToASegment) {
   EXPECT_EQ(triangulate(repaired.plane).report.regions, std::size_t{kWalls});
 }
 
+// The longer segment is led through the ends of the shorter one.
+TEST(RepairPlane, WhatBecomesTheSamePieceIsThereOnce) {
+  Plane plane = square_with({{0.5, 1e-8}, {1.5, -1e-8}}, {{4, 5}});
+  plane.segment_markers = {0, 2, 3, 4, 5};
+  const PlaneRepair repaired = repair(plane, within(1e-6));
+  ASSERT_TRUE(is_valid(repaired.plane));
+  ASSERT_EQ(repaired.plane.segments.size(), 6u);
+  const auto inner = std::find_if(repaired.plane.segments.begin(), repaired.plane.segments.end(),
+                                  [](const Segment& s) { return s[0] + s[1] == 9; });
+  const auto s = static_cast<std::size_t>(inner - repaired.plane.segments.begin());
+  ASSERT_LT(s, 6u);
+  EXPECT_EQ(std::vector<Index>(repaired.segment_parents[s].begin(), repaired.segment_parents[s].end()),
+            (std::vector<Index>{0, 4}));
+  EXPECT_EQ(repaired.plane.segment_markers[s], 5);
+  EXPECT_EQ(repaired.report.left_out_segments, 1u);
+}
+
 TEST(RepairPlane, LeavesWhatItCannotCutForDiagnose) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const PlaneRepair not_finite = repair(square_with({{nan, 0}, {1, 1}}, {{4, 5}}));

@@ -128,10 +128,10 @@ TEST(DxfOutlines, OpenPolylinesAndPlanes) {
 
 TEST(DxfOutlines, ArcsAreDividedWhenAsked) {
   const std::string disc = file(" 0 LWPOLYLINE 70 1 10 0 20 0 42 1 10 2 20 0 42 1");  // two half circles
-  EXPECT_EQ(
-      refusal_of([&] { return planes(disc); }),
-      "line 22: an arc (ARC, CIRCLE, or a bulge of a polyline); arcs are divided into straight pieces if "
-      "an angle for these is given (arcs, in degrees)");
+  EXPECT_EQ(refusal_of([&] { return planes(disc); }),
+            "line 22: an arc (ARC, CIRCLE, ELLIPSE, or a bulge of a polyline); arcs are divided into "
+            "straight pieces if "
+            "an angle for these is given (arcs, in degrees)");
   const PlanesInSpace divided = planes(disc, 90);
   ASSERT_EQ(divided.points.size(), 4U);
   EXPECT_NEAR(divided.points[1][0], 1, 1e-15);
@@ -148,9 +148,30 @@ TEST(DxfOutlines, ArcsAreDividedWhenAsked) {
       "10 0 20 0 40 1 "
       "50 315 51 45";
   EXPECT_EQ(triangles(file(slot), 45), 2U);
-  EXPECT_EQ(refusal_of([&] { return planes(file(" 0 CIRCLE 40 0"), 30); }),
-            "line 22: an arc whose radius is not positive, or whose numbers are not finite");
+  EXPECT_EQ(refusal_of([&] { return planes(file(" 0 CIRCLE 40 -1"), 30); }),
+            "line 22: an arc whose radius is negative, or whose numbers are not finite");
+  EXPECT_EQ(planes(file(kSquare + " 0 CIRCLE 40 0"), 30).points.size(), 4U)
+      << "a point, as CAD programs write";
   EXPECT_THROW(static_cast<void>(planes(disc, 0.01)), std::invalid_argument);
+}
+
+TEST(DxfOutlines, Ellipses) {
+  // Twice as wide as high, about (1, 2); the parameter 90 degrees is the top.
+  const std::string whole = " 0 ELLIPSE 10 1 20 2 11 4 21 0 40 0.5";
+  const PlanesInSpace ellipse = planes(file(whole + " 41 0 42 6.283185"), 30);
+  ASSERT_EQ(ellipse.points.size(), 12U);
+  EXPECT_EQ(ellipse.points[0], (Point{5, 2, 0}));
+  EXPECT_NEAR(ellipse.points[3][0], 1, 1e-6);
+  EXPECT_NEAR(ellipse.points[3][1], 4, 1e-6);
+  for (const Point& p : ellipse.points)
+    EXPECT_NEAR((p[0] - 1) * (p[0] - 1) / 16 + (p[1] - 2) * (p[1] - 2) / 4, 1, 1e-12);
+  EXPECT_EQ(triangles(file(whole), 30), 10U) << "without parameters it is whole";
+  // Seen from below it turns the other way: the upper half ends on the left, and a line closes it.
+  const std::string half =
+      " 0 ELLIPSE 10 0 20 0 11 2 21 0 40 0.5 41 0 42 3.141592654 0 LINE 10 -2 20 0 11 2 21 0";
+  EXPECT_EQ(triangles(file(half), 60), 2U);
+  const PlanesInSpace below = planes(file(" 0 ELLIPSE 11 2 21 0 40 0.5 230 -1 41 0 42 3.141592654"), 90);
+  EXPECT_NEAR(below.points[1][1], -1, 1e-8);
 }
 
 TEST(DxfOutlines, WhatIsNoLine) {
@@ -159,7 +180,7 @@ TEST(DxfOutlines, WhatIsNoLine) {
   EXPECT_EQ(
       refusal_of([&] { return planes(file(" 0 TEXT")); }),
       "holds no faces or lines (3DFACE, MESH, polyface or polygon mesh, LINE, LWPOLYLINE, POLYLINE, ARC, "
-      "CIRCLE), but 'TEXT'; export solids as meshes, or as STL");
+      "CIRCLE, ELLIPSE), but 'TEXT'; export solids as meshes, or as STL");
   EXPECT_EQ(refusal_of([&] { return planes(file(" 0 POLYLINE 70 1 0 VERTEX 10 0 20 0" + kFace)); }),
             "line 22: the POLYLINE has no SEQEND; the file is truncated or damaged");
 }
