@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "io/dxf_plane.h"
+#include "io/dxf_spline.h"
 #include "numbers/elementary.h"
 #include "numbers/vector.h"
 
@@ -13,6 +14,8 @@ namespace holdfast::io {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
+/// What six digits may differ from a length, as a share of it.
+constexpr double kSixDigits = 1e-6;
 
 /// A point on the arc from p to q: the share `k` of `count` of its angle. The chord to it is turned from the
 /// chord to q by half of what remains; so arcs that are nearly straight need no centre far away.
@@ -72,6 +75,8 @@ bool DxfLines::add(MeshData& mesh, DxfText& text, const DxfEntity& entity, int l
     add_arc(mesh, text, entity, layer);
   } else if (entity.type == "ELLIPSE") {
     add_ellipse(mesh, text, entity, layer);
+  } else if (entity.type == "SPLINE") {
+    return add_spline(mesh, text, entity, layer);
   } else {
     return false;
   }
@@ -154,8 +159,7 @@ void DxfLines::add_ellipse(MeshData& mesh, DxfText& text, const DxfEntity& entit
   if (radius == 0) return;
   const Vector minor = cross(placement_of_plane(text, entity).of({0, 0, 1}), major);
   const double angle = turn_of(from, to);
-  constexpr double kSixDigits = 1e-4;  // degrees: of parameters in radians
-  const bool is_whole = angle > 360 - kSixDigits;
+  const bool is_whole = angle > 360 * (1 - kSixDigits);
   const auto at = [&](double share) {
     const Point p = on_circle({}, 1, share == 1 ? to : from + angle * share);
     Point q{};
@@ -163,6 +167,25 @@ void DxfLines::add_ellipse(MeshData& mesh, DxfText& text, const DxfEntity& entit
     return q;
   };
   add_curve(mesh, pieces_of(text, entity.place, angle), is_whole, radius, at, layer);
+}
+
+bool DxfLines::add_spline(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer) {
+  const std::optional<DxfSpline> spline = DxfSpline::read(text, entity);
+  if (!spline) return false;
+  require_step(text, entity.place);
+  const std::vector<Point> points = spline->points(arc_step_);
+  if (points.size() < 2) return true;  // a point
+  double reach = 0;
+  for (const Point& p : points) reach = std::max(reach, numbers::distance(points.front(), p));
+  const bool is_closed =
+      points.size() > 3 && numbers::distance(points.front(), points.back()) <= kSixDigits * reach;
+  const auto first = static_cast<Index>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), points.begin(), points.end() - (is_closed ? 1 : 0));
+  const auto last = static_cast<Index>(mesh.vertices.size() - 1);
+  for (Index v = first; v < last; ++v) mesh.add_segment({v, v + 1}, layer);
+  if (is_closed) mesh.add_segment({last, first}, layer);
+  for (const Index end : {first, last}) line_ends_.push_back(end);
+  return true;
 }
 
 void DxfLines::add_curve(MeshData& mesh, std::size_t pieces, bool is_closed, double radius,
@@ -180,19 +203,22 @@ void DxfLines::add_curve(MeshData& mesh, std::size_t pieces, bool is_closed, dou
   arc_ends_.push_back({static_cast<Index>(first + pieces), radius});
 }
 
-std::size_t DxfLines::pieces_of(const DxfText& text, std::size_t place, double degrees) const {
+void DxfLines::require_step(const DxfText& text, std::size_t place) const {
   if (arc_step_ == 0)
-    text.fail_at(
-        place,
-        "an arc (ARC, CIRCLE, ELLIPSE, or a bulge of a polyline); arcs are divided into straight pieces if "
-        "an angle for these is given (arcs, in degrees)");
+    text.fail_at(place,
+                 "an arc (ARC, CIRCLE, ELLIPSE, SPLINE, or a bulge of a polyline); arcs are divided into "
+                 "straight pieces if "
+                 "an angle for these is given (arcs, in degrees)");
+}
+
+std::size_t DxfLines::pieces_of(const DxfText& text, std::size_t place, double degrees) const {
+  require_step(text, place);
   constexpr double kRounding = 1e-9;  // 90 degrees in steps of 10 are nine pieces
   return static_cast<std::size_t>(std::max(1.0, std::ceil(degrees / arc_step_ - kRounding)));
 }
 
 void DxfLines::join_ends(MeshData& mesh) const {
   if (arc_ends_.empty()) return;
-  constexpr double kSixDigits = 1e-6;
   // Ends of lines come first; of two arcs, the later one gets the place of the earlier one.
   std::multimap<double, Index> settled;
   for (const Index end : line_ends_) settled.emplace(mesh.vertices[end][0], end);

@@ -1,4 +1,5 @@
-// The lines of a DXF file, as outlines in a plane: LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE and ELLIPSE.
+// The lines of a DXF file, as outlines in a plane: LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and
+// SPLINE.
 #pragma once
 
 #include <functional>
@@ -48,9 +49,13 @@ class DxfLines {
   void add_light_polyline(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer);
   void add_arc(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer);
   void add_ellipse(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer);
+  /// False for a spline without control points.
+  bool add_spline(MeshData& mesh, DxfText& text, const DxfEntity& entity, int layer);
   /// `at` gives its points, from 0 to 1.
   void add_curve(MeshData& mesh, std::size_t pieces, bool is_closed, double radius,
                  const std::function<Point(double)>& at, int layer);
+  /// Throws FileError if arcs are refused.
+  void require_step(const DxfText& text, std::size_t place) const;
   /// The number of pieces of an arc. Throws FileError if arcs are refused.
   [[nodiscard]] std::size_t pieces_of(const DxfText& text, std::size_t place, double degrees) const;
 

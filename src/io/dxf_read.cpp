@@ -206,12 +206,13 @@ class DxfReader {
     const bool for_outlines = source_.keeps_polygons;
     const std::string what = for_outlines ? "faces or lines" : "faces";
     if (mesh_.facets.empty() && mesh_.segments.empty())
-      throw FileError(source_.path, "",
-                      "holds no " + what + " (3DFACE, MESH, polyface or polygon mesh" +
-                          (for_outlines ? ", LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE)" : ")") +
-                          (names.empty() ? ""
-                                         : ", but " + names + "; export solids as meshes, or as STL" +
-                                               (for_outlines ? "" : "; `holdfast plane` fills outlines")));
+      throw FileError(
+          source_.path, "",
+          "holds no " + what + " (3DFACE, MESH, polyface or polygon mesh" +
+              (for_outlines ? ", LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE, SPLINE)" : ")") +
+              (names.empty() ? ""
+                             : ", but " + names + "; export solids as meshes, or as STL" +
+                                   (for_outlines ? "" : "; `holdfast plane` fills outlines")));
     mesh_.leave_out(count, "entities without " + what + " (" + names + ")",
                     "entity without " + what + " (" + names + ")");
   }

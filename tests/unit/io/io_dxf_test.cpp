@@ -129,7 +129,7 @@ TEST(DxfOutlines, OpenPolylinesAndPlanes) {
 TEST(DxfOutlines, ArcsAreDividedWhenAsked) {
   const std::string disc = file(" 0 LWPOLYLINE 70 1 10 0 20 0 42 1 10 2 20 0 42 1");  // two half circles
   EXPECT_EQ(refusal_of([&] { return planes(disc); }),
-            "line 22: an arc (ARC, CIRCLE, ELLIPSE, or a bulge of a polyline); arcs are divided into "
+            "line 22: an arc (ARC, CIRCLE, ELLIPSE, SPLINE, or a bulge of a polyline); arcs are divided into "
             "straight pieces if "
             "an angle for these is given (arcs, in degrees)");
   const PlanesInSpace divided = planes(disc, 90);
@@ -174,13 +174,61 @@ TEST(DxfOutlines, Ellipses) {
   EXPECT_NEAR(below.points[1][1], -1, 1e-8);
 }
 
+TEST(DxfOutlines, Splines) {
+  // A quarter of the unit circle as a rational spline of degree 2, and two lines that close it.
+  const std::string knots = " 40 0 40 0 40 0 40 1 40 1 40 1";
+  const std::string controls = " 10 1 20 0 30 0 10 1 20 1 30 0 10 0 20 1 30 0";
+  const std::string quarter = " 0 SPLINE 71 2" + knots + " 41 1 41 0.70710678118654757 41 1" + controls;
+  const std::string sides = " 0 LINE 10 0 20 1 11 0 21 0 0 LINE 10 0 20 0 11 1 21 0";
+  const PlanesInSpace sector = planes(file(quarter + sides), 15);
+  ASSERT_GE(sector.points.size(), 8U);
+  ASSERT_LE(sector.points.size(), 18U);
+  EXPECT_EQ(sector.points.front(), (Point{1, 0, 0})) << "control points at the ends, bit for bit";
+  std::size_t on_circle = 0;
+  for (const Point& p : sector.points) on_circle += std::fabs(std::hypot(p[0], p[1]) - 1) < 1e-15 ? 1 : 0;
+  EXPECT_EQ(on_circle, sector.points.size() - 1);
+  EXPECT_GE(triangles(file(quarter + sides), 15), 6U);
+  // A parabola, and knots inside that a bend of degree 1 has.
+  const PlanesInSpace parabola =
+      planes(file(" 0 SPLINE 71 2" + knots + " 10 -1 20 1 10 0 20 -1 10 1 20 1"), 10);
+  for (const Point& p : parabola.points) EXPECT_NEAR(p[1], p[0] * p[0], 1e-15);
+  const PlanesInSpace bend =
+      planes(file(" 0 SPLINE 71 1 40 0 40 0 40 0.5 40 1 40 1 10 0 20 0 10 1 20 0 10 1 20 1"), 90);
+  EXPECT_EQ(bend.points, (std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
+  // Periodic, without a knot of full multiplicity: it ends where it begins, up to rounding.
+  std::string periodic = " 0 SPLINE 70 3 71 2";
+  for (int k = 0; k < 9; ++k) periodic += " 40 " + std::to_string(k);
+  const char* corners[] = {" 10 1 20 0.1", " 10 0 20 1", " 10 -1 20 0.3", " 10 0 20 -1"};
+  for (int k = 0; k < 6; ++k) periodic += corners[k % 4];
+  const PlanesInSpace loop = planes(file(periodic), 20);
+  EXPECT_EQ(loop.parts[0].plane.segments.size(), loop.points.size());
+  EXPECT_GE(triangles(file(periodic), 20), 10U);
+  // Nothing but rounding, and a spline that turns back.
+  const std::string place = " 10 0.1 20 0.7";
+  EXPECT_EQ(planes(file(kSquare + " 0 SPLINE 71 2" + knots + place + place + place), 0.1).points.size(), 4U);
+  const std::string back = " 0 SPLINE 71 2" + knots + " 10 9 20 9 10 10 20 9 10 9 20 9";
+  EXPECT_LE(planes(file(kSquare + back), 0.1).points.size(), 100U);
+  const auto error = [&](const std::string& entity) {
+    return refusal_of([&] { return planes(file(" 0 SPLINE" + entity), 10); });
+  };
+  EXPECT_EQ(error(" 71 3" + knots + controls), "line 22: a spline of degree 3 with 3 control points");
+  EXPECT_EQ(error(" 71 2 40 0 40 1" + controls),
+            "line 22: a spline with 2 knots, where its control points need 6");
+  EXPECT_EQ(error(" 71 2 40 0 40 0 40 0 40 0 40 0 40 0" + controls),
+            "line 22: a spline whose knots do not increase");
+  EXPECT_EQ(error(" 71 2" + knots + " 41 1 41 0 41 1" + controls),
+            "line 22: a spline with a weight that is not positive");
+  EXPECT_EQ(error(" 71 2" + knots + " 41 1" + controls),
+            "line 22: a spline with more or fewer weights than control points");
+}
+
 TEST(DxfOutlines, WhatIsNoLine) {
   EXPECT_EQ(planes(file(kSquare + " 0 SPLINE 8 rim")).remarks.front().message,
             "1 entity without faces or lines ('SPLINE') is left out");
   EXPECT_EQ(
       refusal_of([&] { return planes(file(" 0 TEXT")); }),
       "holds no faces or lines (3DFACE, MESH, polyface or polygon mesh, LINE, LWPOLYLINE, POLYLINE, ARC, "
-      "CIRCLE, ELLIPSE), but 'TEXT'; export solids as meshes, or as STL");
+      "CIRCLE, ELLIPSE, SPLINE), but 'TEXT'; export solids as meshes, or as STL");
   EXPECT_EQ(refusal_of([&] { return planes(file(" 0 POLYLINE 70 1 0 VERTEX 10 0 20 0" + kFace)); }),
             "line 22: the POLYLINE has no SEQEND; the file is truncated or damaged");
 }
