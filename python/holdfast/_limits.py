@@ -89,6 +89,13 @@ def length(value: Any, what: str) -> float:
     return number
 
 
+def weld_of(repair: Any) -> Optional[float]:
+    """The distance within which `repair`, a truth value or a length, joins points; None for no repair."""
+    if is_truth(repair):
+        return 0.0 if repair else None
+    return length(repair, "repair")
+
+
 class _Bar:
     """A bar on standard error: tqdm's if it is installed, otherwise a plain line."""
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, is_truth, length, limits, threads_of, whole
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, is_truth, length, limits, threads_of, weld_of, whole
 from ._masks import require_unmasked
 from ._parts import given
 from ._repair import Repair, most_sides
@@ -169,19 +169,18 @@ def mesh(
     if fill and any(x is not None for x in (size, metric, max_volume, max_ratio, layers)):
         raise ValueError("fill=True adds no field points, so that size, metric, max_volume, max_ratio and layers have no meaning; "
                          "leave out one of them")
-    if isinstance(repair, np.bool_):
-        repair = bool(repair)
-    if repair is False and (most_sides(fill_holes) or union):
+    weld = weld_of(repair)
+    if weld is None and (most_sides(fill_holes) or union):
         raise ValueError("fill_holes and union do nothing without repair: the surface is meshed as it is")
     if box_margin is not None and keep != "box":
         raise ValueError(f'box_margin does nothing with keep={keep!r}: it is for keep="box"')
     options["threads"] = threads_of(threads)
     what, pasted = given(
         surface, triangles, {"segments": segments, "triangle_markers": triangle_markers, "segment_markers": segment_markers},
-        paste=paste, overlap=overlap, repairs=repair is not False, options=options, progress=progress)
+        paste=paste, overlap=overlap, repairs=weld is not None, options=options, progress=progress)
     repaired, unrepaired = None, what
-    if repair is not False:
-        repaired = repair_surface(what, weld=0.0 if repair is True else length(repair, "repair"), fill_holes=fill_holes,
+    if weld is not None:
+        repaired = repair_surface(what, weld=weld, fill_holes=fill_holes,
                                   union=union, threads=threads,
                                   time_limit=time_limit, memory_limit=memory_limit, cancel=cancel, progress=progress)
         what = repaired.surface

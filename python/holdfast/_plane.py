@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._counts import counted
-from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, whole
+from ._limits import CancelToken, MemoryAmount, Progress, Shown, limits, weld_of, whole
 from ._masks import plain, require_unmasked
 from ._mesh import _listed, _positive
 from ._names import Fixed, Names, names_of
@@ -27,7 +27,8 @@ _STAGES, _ORDERS = ("delaunay", "partition", "swap"), ("given", "random", "halvi
 class PlaneMesh:
     """Triangles in the plane, as read-only arrays.
 
-    Points 0 to `n_input_points - 1` are the given points, bit for bit; after `repair`, those that stay.
+    Points 0 to `n_input_points - 1` are the given points, bit for bit; after `repair`, those that stay
+    (with a length some may have moved).
     """
 
     def __init__(self, result: _core.PlaneResult) -> None:
@@ -238,7 +239,7 @@ def plane(
         stop_after_swaps=swaps,
         order=order,
         arcs=0.0 if arcs is None else _positive(arcs, "arcs"),
-        repair=_weld(repair),
+        repair=weld_of(repair),
         seed=whole(seed, "seed"),
     )
     if isinstance(points, (str, bytes, os.PathLike)):
@@ -321,13 +322,6 @@ def _angle(angle: Any) -> float:
     if not 0 <= degrees <= 34:
         raise ValueError(f"angle={degrees}: 0 to 34 degrees are expected")
     return degrees
-
-
-def _weld(repair: Union[bool, float]) -> Optional[float]:
-    """The distance within which a repair joins points; None for no repair."""
-    if isinstance(repair, (bool, np.bool_)):
-        return 0.0 if repair else None
-    return _positive(repair, "repair")
 
 
 def _coordinates(values: Any) -> Array:

@@ -89,11 +89,11 @@ PlanesInSpace& result_of(PlanesRepair& repair) { return repair.planes; }
 
 /// Repairs what is given. Returns false if there is no result.
 template <typename Planes>
-bool repair_first(Planes& given, double weld, const PlaneOptions& how, PlaneRun& run) {
+bool repair_first(Planes& given, double weld, const PlaneOptions& how, const Watch& watch, PlaneRun& run) {
   RepairOptions options;
   static_cast<Limits&>(options) = how;
   options.weld = weld;
-  options.progress = how.progress;
+  options.progress = [&watch](double fraction) { return watch.go_on("repair", fraction); };
   auto repaired = repair(given, options);
   run.result.outcome = repaired.outcome;
   run.result.message = repaired.message;
@@ -116,7 +116,7 @@ std::shared_ptr<PlaneRun> solve(const py::dict& options, const py::object& progr
   auto given = planes(watch, how);
   run->input_points = points_of(given);
   run->remarks = given.remarks;
-  if (weld && !repair_first(given, *weld, how, *run)) return run;
+  if (weld && !repair_first(given, *weld, how, watch, *run)) return run;
   run->result = triangulate(given, how);
   return run;
 }

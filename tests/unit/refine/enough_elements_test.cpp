@@ -56,6 +56,21 @@ TEST(SizesForEnough, EndsWhereNothingHelps) {
   EXPECT_LE(search(1000, [](double f) { return f > 0.999 ? 100 : 3000; }).tries, 6);
 }
 
+// Walls get points between 0.7 and 0.5: half of the size at once would give more than three times as many.
+TEST(SizesForEnough, TakesSmallStepsWhereAFillingIsCostly) {
+  const auto second = [](double asked) {
+    SizesForEnough sizes({asked});
+    EXPECT_TRUE(sizes.goes_on(std::vector<double>{asked / 20}));
+    return sizes.factors()[0];
+  };
+  EXPECT_EQ(second(1000), 0.5);
+  EXPECT_EQ(second(1e6), 0.65);
+  const auto made = [](double f) { return f > 0.7 ? 50'000 : 480'000 / (f * f * f) * 0.4; };
+  const Found found = search(1e6, made);
+  EXPECT_GE(made(found.factor), 580'000);
+  EXPECT_LE(found.tries, 4);
+}
+
 TEST(SizesForEnough, TakesTooManyRatherThanTooFew) {
   const auto made = [](double f) { return f > 0.55 ? 6 : 3000; };
   const Found found = search(1000, made);
