@@ -5,6 +5,7 @@
 
 #include "io/dolfin.h"
 #include "io/solver_text.h"
+#include "io/two_dimensions.h"
 #include "numbers/sorted.h"
 
 namespace holdfast::io {
@@ -36,7 +37,10 @@ struct Place {
 class DolfinWriter {
  public:
   explicit DolfinWriter(const Volume& volume)
-      : volume_(volume), labels_(volume), is_surface_(volume.tetrahedra.empty()) {}
+      : volume_(volume),
+        labels_(volume),
+        is_surface_(volume.tetrahedra.empty()),
+        is_in_plane_(is_in_plane(volume)) {}
 
   [[nodiscard]] const DolfinLabels& labels() const { return labels_; }
   [[nodiscard]] std::size_t cells() const {
@@ -103,13 +107,14 @@ class DolfinWriter {
 
   void write(AtomicWriter& out) const {
     out << "<?xml version=\"1.0\"?>\n<dolfin xmlns:dolfin=\"http://fenicsproject.org\">\n  <mesh celltype=\""
-        << (is_surface_ ? "triangle" : "tetrahedron") << "\" dim=\"3\">\n    <vertices size=\""
-        << std::uint64_t{volume_.vertices.size()} << "\">\n";
+        << (is_surface_ ? "triangle" : "tetrahedron") << "\" dim=\"" << (is_in_plane_ ? 2 : 3)
+        << "\">\n    <vertices size=\"" << std::uint64_t{volume_.vertices.size()} << "\">\n";
     for (std::size_t v = 0; v < volume_.vertices.size(); ++v) {
       beat(out.watch());
       const Point& p = volume_.vertices[v];
-      out << "      <vertex index=\"" << std::uint64_t{v} << "\" x=\"" << p[0] << "\" y=\"" << p[1]
-          << "\" z=\"" << p[2] << "\"/>\n";
+      out << "      <vertex index=\"" << std::uint64_t{v} << "\" x=\"" << p[0] << "\" y=\"" << p[1];
+      if (!is_in_plane_) out << "\" z=\"" << p[2];
+      out << "\"/>\n";
     }
     out << "    </vertices>\n    <cells size=\"" << std::uint64_t{cells()} << "\">\n";
     for (std::size_t cell = 0; cell < cells(); ++cell) {
@@ -156,6 +161,7 @@ class DolfinWriter {
   const Volume& volume_;
   DolfinLabels labels_;
   bool is_surface_;
+  bool is_in_plane_;  ///< of two dimensions
 };
 
 }  // namespace

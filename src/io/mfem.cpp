@@ -1,10 +1,12 @@
-// MFEM's meshes (mfem.org, "Mesh formats"): version 1.0, and 1.3 if attributes have names.
+// MFEM's meshes (mfem.org, "Mesh formats"): version 1.0, and 1.3 if attributes have names. The elements of a
+// surface are its triangles, and those of the plane have two coordinates.
 #include <algorithm>
 
 #include "io/cells.h"
 #include "io/fields.h"
 #include "io/polygon.h"
 #include "io/solver_text.h"
+#include "io/two_dimensions.h"
 
 namespace holdfast::io {
 namespace {
@@ -38,13 +40,15 @@ class MfemReader {
   void read_section() {
     const std::string name(text_.word("a section"));
     if (name == "dimension") {
-      if (text_.integer("the dimension") != 3) text_.fail("the dimension is not 3");
+      const std::int64_t dimension = text_.integer("the dimension");
+      if (dimension != 2 && dimension != 3) text_.fail("the dimension is neither 2 nor 3");
+      is_surface_ = dimension == 2;
     } else if (name == "elements" || name == "boundary") {
       read_entities();
     } else if (name == "attribute_sets") {
-      read_sets(regions_);
+      read_sets(is_surface_ ? facets_ : regions_);
     } else if (name == "bdr_attribute_sets") {
-      read_sets(facets_);
+      read_sets(is_surface_ ? segments_ : facets_);
     } else if (name == "vertices") {
       read_vertices();
     } else if (name == "mfem_mesh_end") {
@@ -98,8 +102,12 @@ class MfemReader {
     const std::size_t count = text_.count("the number of vertices", 2);
     if (!text_.number_follows())
       text_.fail("meshes whose nodes are a function are not read; save them straight");
-    if (text_.integer("the space's dimension") != 3) text_.fail("the space's dimension is not 3");
-    for (std::size_t i = 0; i < count; ++i) mesh_.vertices.push_back(text_.point());
+    const std::int64_t dimension = text_.integer("the space's dimension");
+    if (dimension != 3 && !(dimension == 2 && is_surface_))
+      text_.fail("the space's dimension is neither 3 nor that of the mesh");
+    for (std::size_t i = 0; i < count; ++i)
+      mesh_.vertices.push_back(
+          dimension == 3 ? text_.point() : Point{text_.real("a coordinate"), text_.real("a coordinate"), 0});
   }
 
   void add_entities() {
@@ -118,19 +126,21 @@ class MfemReader {
       else if (entity.type > kMfemTetrahedron)
         add_cell(mesh_, std::span(n).first(corners), corners, regions_.resolve(entity.attribute));
       else if (entity.type == kMfemSegment)
-        mesh_.add_segment({n[0], n[1]}, entity.attribute);
+        mesh_.add_segment({n[0], n[1]}, segments_.resolve(entity.attribute));
       else
         add_polygon(mesh_, std::span(n).first(corners), facets_.resolve(entity.attribute),
                     [&](const std::string& reason) { text_.fail_at(entity.position, reason); });
     }
     mesh_.names.regions = regions_.take();
     mesh_.names.facets = facets_.take();
+    mesh_.names.segments = segments_.take();
   }
 
   TextReader text_;
   MeshData mesh_;
   std::vector<Entity> entities_;
-  NamedIds regions_{kRegionStem}, facets_{kFacetStem};
+  NamedIds regions_{kRegionStem}, facets_{kFacetStem}, segments_{kSegmentStem};
+  bool is_surface_ = false;
 };
 
 template <std::size_t N>
@@ -150,30 +160,64 @@ void write_sets(AtomicWriter& out, std::string_view section, const Labels& label
   for (const auto& [id, name] : labels.names) out << '"' << name << "\" 1 " << id << '\n';
 }
 
+/// The labels of the cells and of their boundary.
+struct MfemLabels {
+  Labels cells, boundary;
+  bool has_names;
+
+  MfemLabels(const Volume& volume, const Sides& sides) {
+    SolverLabels all(volume, kMfemNames, kMfemIds);
+    const bool is_surface = has_cells_of_triangles(volume);
+    boundary = is_surface ? labels_of(kSegmentStem, sides.markers, sides.segments.size(),
+                                      volume.names.segments, kMfemNames, kMfemIds)
+                          : std::move(all.facets);
+    cells = is_surface ? std::move(all.facets) : std::move(all.regions);
+    const Names& names = volume.names;
+    has_names = !(is_surface ? names.segments : names.regions).empty() || !names.facets.empty() ||
+                !cells.renumbered.empty() || !boundary.renumbered.empty();
+  }
+};
+
+Sides sides_of(const Volume& volume) {
+  return has_cells_of_triangles(volume) ? Sides(volume) : Sides(Volume{});
+}
+
 }  // namespace
 
 MeshData read_mfem(const Source& source) { return MfemReader(source).read(); }
 
 void write_mfem(AtomicWriter& out, const Volume& volume) {
-  const SolverLabels labels(volume, kMfemNames, kMfemIds);
-  const bool named = !volume.names.regions.empty() || !volume.names.facets.empty() ||
-                     !labels.regions.renumbered.empty() || !labels.facets.renumbered.empty();
-  out << (named ? "MFEM mesh v1.3\n" : "MFEM mesh v1.0\n") << "\ndimension\n3\n";
-  write_entities(out, "elements", kMfemTetrahedron, labels.regions, volume.tetrahedra);
-  if (named) write_sets(out, "attribute_sets", labels.regions);
-  write_entities(out, "boundary", kMfemTriangle, labels.facets, volume.facets);
-  if (named) write_sets(out, "bdr_attribute_sets", labels.facets);
-  out << "\nvertices\n" << std::uint64_t{volume.vertices.size()} << "\n3\n";
-  for (const Point& p : volume.vertices) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-  if (named) out << "\nmfem_mesh_end\n";
+  const bool is_surface = has_cells_of_triangles(volume);
+  const Sides sides = sides_of(volume);
+  const MfemLabels labels(volume, sides);
+  out << (labels.has_names ? "MFEM mesh v1.3\n" : "MFEM mesh v1.0\n") << "\ndimension\n"
+      << (is_surface ? "2\n" : "3\n");
+  if (is_surface)
+    write_entities(out, "elements", kMfemTriangle, labels.cells, volume.facets);
+  else
+    write_entities(out, "elements", kMfemTetrahedron, labels.cells, volume.tetrahedra);
+  if (labels.has_names) write_sets(out, "attribute_sets", labels.cells);
+  if (is_surface)
+    write_entities(out, "boundary", kMfemSegment, labels.boundary, sides.segments);
+  else
+    write_entities(out, "boundary", kMfemTriangle, labels.boundary, volume.facets);
+  if (labels.has_names) write_sets(out, "bdr_attribute_sets", labels.boundary);
+  const std::size_t dimension = is_in_plane(volume) ? 2 : 3;
+  out << "\nvertices\n" << std::uint64_t{volume.vertices.size()} << '\n' << std::uint64_t{dimension} << '\n';
+  for (const Point& p : volume.vertices) {
+    out << p[0] << ' ' << p[1];
+    if (dimension == 3) out << ' ' << p[2];
+    out << '\n';
+  }
+  if (labels.has_names) out << "\nmfem_mesh_end\n";
 }
 
 std::vector<Remark> not_in_mfem(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
-  const SolverLabels labels(volume, kMfemNames, kMfemIds);
-  tell(labels.regions, "MFEM", remarks);
-  tell(labels.facets, "MFEM", remarks);
-  tell_left_out(volume, "MFEM's meshes", false, false, remarks);
+  const MfemLabels labels(volume, sides_of(volume));
+  tell(labels.cells, "MFEM", remarks);
+  tell(labels.boundary, "MFEM", remarks);
+  tell_left_out(volume, "MFEM's meshes", has_cells_of_triangles(volume), false, remarks);
   return remarks;
 }
 

@@ -1,10 +1,12 @@
-// SU2's native meshes (SU2 documentation, "Mesh file"): tetrahedra, and triangles of the boundary by markers.
+// SU2's native meshes (SU2 documentation, "Mesh file"): tetrahedra, and triangles of the boundary by markers;
+// in two dimensions triangles, and segments of the boundary.
 #include <algorithm>
 
 #include "io/cells.h"
 #include "io/fields.h"
 #include "io/polygon.h"
 #include "io/solver_text.h"
+#include "io/two_dimensions.h"
 
 namespace holdfast::io {
 namespace {
@@ -21,11 +23,11 @@ class Su2Reader {
     // Nodes may follow the elements that name them, so their number is found first.
     find_points();
     while (next()) read_section();
-    if (!has_dimension_) text_.fail("there is no NDIME=, so this is no SU2 mesh");
+    if (dimension_ == 0) text_.fail("there is no NDIME=, so this is no SU2 mesh");
     if (mesh_.vertices.size() != points_) text_.fail("there are other than NPOIN= points");
     add_what_is_cut();
     mesh_.leave_out(skipped_, "sections of other kinds", "section of another kind");
-    mesh_.names.facets = names_.take();
+    (dimension_ == 2 ? mesh_.names.segments : mesh_.names.facets) = names_->take();
     return std::move(mesh_);
   }
 
@@ -35,7 +37,7 @@ class Su2Reader {
       beat(text_.source().watch);
       const std::string_view line = text_.rest_of_line();
       const std::size_t mark = line.find('%');
-      if (mark != std::string_view::npos) read_id_comment(line.substr(mark + 1), std::array{&names_});
+      if (mark != std::string_view::npos) read_id_comment(line.substr(mark + 1), std::array{&*names_});
       line_ = trimmed(line.substr(0, mark));
       if (!line_.empty()) return true;
     }
@@ -46,6 +48,7 @@ class Su2Reader {
   void find_points() {
     while (next()) {
       const auto [key, value] = pair();
+      if (key == "ndime" && value == "2") names_.emplace(kSegmentStem);
       if (key != "npoin") continue;
       points_ = count(value, 4);
       break;
@@ -74,14 +77,15 @@ class Su2Reader {
     const auto [key, value] = pair();
     if (key.empty()) text_.fail("expected KEY= and a value, found " + in_quotes(line_));
     if (key == "ndime") {
-      has_dimension_ = true;
-      if (integer_of(text_, value, "a dimension") != 3) text_.fail("the dimension is not 3");
+      const std::int64_t dimension = integer_of(text_, value, "a dimension");
+      if (dimension != 2 && dimension != 3) text_.fail("the dimension is neither 2 nor 3");
+      dimension_ = static_cast<std::size_t>(dimension);
     } else if (key == "nelem") {
       for (std::size_t i = count(value, 4); i > 0; --i) read_element(0);
     } else if (key == "npoin") {
       for (std::size_t i = count(value, 4); i > 0; --i) read_point();
     } else if (key == "marker_tag") {
-      marker_ = names_.id_of(std::string(value));
+      marker_ = names_->id_of(std::string(value));
     } else if (key == "marker_elems") {
       for (std::size_t i = count(value, 4); i > 0; --i) read_element(marker_);
     } else if (key == "nzone") {
@@ -99,9 +103,11 @@ class Su2Reader {
 
   void read_point() {
     const std::vector<std::string_view> f = fields();
-    if (f.size() < 3) text_.fail("a point needs three coordinates");
-    mesh_.vertices.push_back({real_of(text_, f[0], "a coordinate"), real_of(text_, f[1], "a coordinate"),
-                              real_of(text_, f[2], "a coordinate")});
+    if (f.size() < dimension_ || dimension_ == 0)
+      text_.fail("a point needs as many coordinates as NDIME= says before it");
+    Point p{};
+    for (std::size_t k = 0; k < dimension_; ++k) p[k] = real_of(text_, f[k], "a coordinate");
+    mesh_.vertices.push_back(p);
   }
 
   void read_element(int marker) {
@@ -170,10 +176,9 @@ class Su2Reader {
   std::string_view line_;
   MeshData mesh_;
   std::vector<Cut> cuts_;
-  std::size_t points_ = 0, skipped_ = 0;
-  bool has_dimension_ = false;
+  std::size_t points_ = 0, skipped_ = 0, dimension_ = 0;
   int marker_ = 0;
-  NamedIds names_{kFacetStem};
+  std::optional<NamedIds> names_{kFacetStem};  // of segments in two dimensions
 };
 
 /// Whether each facet has a tetrahedron on one side only: SU2 has markers only on the boundary.
@@ -185,57 +190,119 @@ std::vector<bool> on_boundary(const Volume& volume) {
   return result;
 }
 
+/// The elements of one type, with indices if these belong to the format.
+template <std::size_t N>
+void write_elements(AtomicWriter& out, int type, const std::vector<std::array<Index, N>>& elements) {
+  out << "NELEM= " << std::uint64_t{elements.size()} << '\n';
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    beat(out.watch());
+    out << type;
+    for (const Index v : elements[i]) out << ' ' << v;
+    out << ' ' << std::uint64_t{i} << '\n';
+  }
+}
+
+void write_points(AtomicWriter& out, const std::vector<Point>& points, std::size_t dimension) {
+  out << "NPOIN= " << std::uint64_t{points.size()} << '\n';
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t k = 0; k < dimension; ++k) out << points[i][k] << ' ';
+    out << std::uint64_t{i} << '\n';
+  }
+}
+
+/// What is on the boundary, by markers.
+template <std::size_t N>
+struct Boundary {
+  const Labels& labels;
+  const std::vector<std::array<Index, N>>& entities;
+  std::map<int, std::vector<std::size_t>> sets = {};
+
+  Boundary(const Labels& of_all, const std::vector<std::array<Index, N>>& all,
+           const std::vector<bool>& on_boundary)
+      : labels(of_all), entities(all) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (on_boundary[i]) sets[of_all.ids[i]].push_back(i);
+  }
+
+  void write_ids(AtomicWriter& out) const {
+    Labels written = labels;
+    std::erase_if(written.names, [&](const auto& entry) { return !sets.contains(entry.first); });
+    write_id_comments(out, "%", written);
+  }
+
+  void write(AtomicWriter& out, int type) const {
+    out << "NMARK= " << std::uint64_t{sets.size()} << '\n';
+    for (const auto& [id, members] : sets) {
+      out << "MARKER_TAG= " << labels.names.at(id) << "\nMARKER_ELEMS= " << std::uint64_t{members.size()}
+          << '\n';
+      for (const std::size_t i : members) {
+        out << type;
+        for (const Index v : entities[i]) out << ' ' << v;
+        out << '\n';
+      }
+    }
+  }
+};
+
+template <std::size_t N, std::size_t Cell>
+void write_mesh(AtomicWriter& out, const Volume& volume, const std::vector<std::array<Index, Cell>>& cells,
+                const Boundary<N>& boundary) {
+  constexpr int kTypes[] = {0, 0, kSu2Line, kSu2Triangle, kSu2Tetrahedron};  // by corners
+  out << "% mesh by Holdfast\n";
+  boundary.write_ids(out);
+  out << "NDIME= " << std::uint64_t{N} << '\n';
+  write_elements(out, kTypes[Cell], cells);
+  write_points(out, volume.vertices, N);
+  boundary.write(out, kTypes[N]);
+}
+
+Labels labels_of_sides(const Sides& sides, const Volume& volume) {
+  return labels_of(kSegmentStem, sides.markers, sides.segments.size(), volume.names.segments, kSu2Names,
+                   kAnyId);
+}
+
 }  // namespace
 
 MeshData read_su2(const Source& source) { return Su2Reader(source).read(); }
 
 void write_su2(AtomicWriter& out, const Volume& volume) {
+  if (is_in_plane(volume)) {
+    const Sides sides(volume);
+    const Labels labels = labels_of_sides(sides, volume);
+    write_mesh(out, volume, volume.facets, Boundary<2>(labels, sides.segments, sides.on_boundary));
+    return;
+  }
   const SolverLabels labels(volume, kSu2Names, kAnyId);
-  const std::vector<bool> boundary = on_boundary(volume);
-  std::map<int, std::vector<std::size_t>> markers;
-  for (std::size_t f = 0; f < boundary.size(); ++f)
-    if (boundary[f]) markers[labels.facets.ids[f]].push_back(f);
-  Labels written = labels.facets;
-  std::erase_if(written.names, [&](const auto& entry) { return !markers.contains(entry.first); });
-  out << "% mesh by Holdfast\n";
-  write_id_comments(out, "%", written);
-  out << "NDIME= 3\nNELEM= " << std::uint64_t{volume.tetrahedra.size()} << '\n';
-  for (std::size_t i = 0; i < volume.tetrahedra.size(); ++i) {
-    beat(out.watch());
-    out << kSu2Tetrahedron;
-    for (const Index v : volume.tetrahedra[i]) out << ' ' << v;
-    out << ' ' << std::uint64_t{i} << '\n';
-  }
-  out << "NPOIN= " << std::uint64_t{volume.vertices.size()} << '\n';
-  for (std::size_t i = 0; i < volume.vertices.size(); ++i) {
-    const Point& p = volume.vertices[i];
-    out << p[0] << ' ' << p[1] << ' ' << p[2] << ' ' << std::uint64_t{i} << '\n';
-  }
-  out << "NMARK= " << std::uint64_t{markers.size()} << '\n';
-  for (const auto& [id, members] : markers) {
-    out << "MARKER_TAG= " << labels.facets.names.at(id) << "\nMARKER_ELEMS= " << std::uint64_t{members.size()}
-        << '\n';
-    for (const std::size_t f : members)
-      out << kSu2Triangle << ' ' << volume.facets[f][0] << ' ' << volume.facets[f][1] << ' '
-          << volume.facets[f][2] << '\n';
-  }
+  write_mesh(out, volume, volume.tetrahedra, Boundary<3>(labels.facets, volume.facets, on_boundary(volume)));
 }
 
 std::vector<Remark> not_in_su2(const Volume& volume, const WriteOptions&) {
   std::vector<Remark> remarks;
+  const bool is_plane = is_in_plane(volume);
   const SolverLabels labels(volume, kSu2Names, kAnyId);
-  tell(labels.facets, ".su2", remarks);
-  const auto say = [&](std::size_t count, const std::string& what) {
-    if (count > 0) remarks.push_back({RemarkKind::not_held, count, std::to_string(count) + what});
+  const Labels& regions = is_plane ? labels.facets : labels.regions;
+  const std::map<int, std::string>& names = is_plane ? volume.names.facets : volume.names.regions;
+  const auto say = [&](std::ptrdiff_t count, const std::string& what) {
+    if (count > 0)
+      remarks.push_back(
+          {RemarkKind::not_held, static_cast<std::size_t>(count), std::to_string(count) + what});
   };
-  if (labels.regions.names.size() > 1)
-    say(labels.regions.names.size(), " regions are one zone in .su2, which has no place for them");
+  if (regions.names.size() > 1)
+    say(std::ssize(regions.names), " regions are one zone in .su2, which has no place for them");
   else
-    tell_names({{}, volume.names.regions, {}, {}}, ".su2", remarks);
-  const std::vector<bool> boundary = on_boundary(volume);
-  say(static_cast<std::size_t>(std::count(boundary.begin(), boundary.end(), false)),
-      " facets inside are left out: markers of .su2 are for the boundary");
-  tell_left_out(volume, ".su2", false, false, remarks);
+    tell_names({{}, names, {}, {}}, ".su2", remarks);
+  if (is_plane) {
+    const Sides sides(volume);
+    tell(labels_of_sides(sides, volume), ".su2", remarks);
+    say(std::count(sides.on_boundary.begin(), sides.on_boundary.end(), false),
+        " segments inside are left out: markers of .su2 are for the boundary");
+  } else {
+    tell(labels.facets, ".su2", remarks);
+    const std::vector<bool> boundary = on_boundary(volume);
+    say(std::count(boundary.begin(), boundary.end(), false),
+        " facets inside are left out: markers of .su2 are for the boundary");
+  }
+  tell_left_out(volume, ".su2", is_plane, false, remarks);
   return remarks;
 }
 

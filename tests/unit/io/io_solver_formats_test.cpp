@@ -304,7 +304,7 @@ TEST(SolverFormats, BadFilesAreToldByTheirLines) {
     EXPECT_EQ(error("a.bdf", text), "line 1: grid points in a coordinate system of their own are not read");
   EXPECT_EQ(error("a.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 1\n0 0 0\n"),
             "line 3: the point 1 does not exist; there are 1");
-  EXPECT_EQ(error("a.su2", "NDIME= 2\n"), "line 1: the dimension is not 3");
+  EXPECT_EQ(error("a.su2", "NDIME= 4\n"), "line 1: the dimension is neither 2 nor 3");
   EXPECT_EQ(error("a.mfem",
                   "MFEM mesh v1.0\ndimension\n3\nelements\n1\n1 4 0 1 2 9\nboundary\n0\nvertices\n1\n3\n"
                   "0 0 0\n"),
