@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "command.h"
+#include "heap.h"
 #include "holdfast/holdfast.h"
 #include "holdfast/io.h"
 #include "limits.h"
@@ -92,6 +93,7 @@ void require_values(const CLI::App& command) {
 int run(int count, const char* const* arguments) {
   open_standard_streams();
   fail_rather_than_die();
+  prepare_heap();
   CLI::App app("Holdfast fills triangulated surfaces with tetrahedra and keeps every triangle.", "holdfast");
   app.set_version_flag("--version", std::string("holdfast ") + version());
   app.require_subcommand(1);

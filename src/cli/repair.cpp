@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <memory>
 
-#ifdef __GLIBC__  // defined by the headers above
-#include <malloc.h>
-#endif
-
 #include "command.h"
 #include "common_options.h"
 #include "files.h"
@@ -162,18 +158,7 @@ int repair_files(const RepairArguments& arguments, const RepairOptions& options,
   return conclude(arguments, surface, result);
 }
 
-/// A repair has lists of some megabytes again and again. glibc would give each one back to the system, whose
-/// fresh pages cost a tenth of the time on a surface that is cut several times.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int kLargest = 1 << 24;  // larger lists are given back
-  mallopt(M_MMAP_THRESHOLD, kLargest);
-  mallopt(M_TRIM_THRESHOLD, 2 * kLargest);
-#endif
-}
-
 int run(const RepairArguments& arguments) {
-  keep_freed_memory();
   const RepairOptions options = to_options(arguments);
   FilesOfRun files;
   files.read_surfaces(arguments.surfaces, arguments.input_format);
