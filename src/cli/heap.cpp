@@ -15,7 +15,7 @@ namespace holdfast::cli {
 namespace {
 
 constexpr int kLargest = 1 << 24;  // larger blocks have pages of their own, and give them back
-constexpr int kAhead = 1 << 25;    // more is in large arrays, which ask for huge pages themselves
+constexpr int kAhead = 1 << 28;    // address space, not memory; large arrays ask for huge pages themselves
 constexpr std::uintptr_t kHugePage = 1 << 21;
 
 }  // namespace
