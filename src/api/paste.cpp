@@ -73,12 +73,9 @@ double largest_coordinate(const Complex& complex) {
 }
 
 /// The largest gap that rounding of coordinates may leave between touching parts; they are rounded to floats
-/// if all of them are floats.
+/// if all of them are floats, in binary or as text.
 double rounding_of(const Complex& complex) {
-  constexpr double kMost = std::numeric_limits<float>::max();
-  const auto is_float = [](double x) {
-    return !std::isfinite(x) || (std::fabs(x) <= kMost && static_cast<double>(static_cast<float>(x)) == x);
-  };
+  const auto is_float = [](double x) { return !std::isfinite(x) || is_text_of_float(x); };
   // Vertices inside a volume, of which a part is the surface, are ignored.
   const bool are_floats = std::all_of(complex.facets.begin(), complex.facets.end(), [&](const Triangle& t) {
     return std::all_of(t.begin(), t.end(), [&](Index v) {
