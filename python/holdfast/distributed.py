@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Optional
 
+from . import _core
 from ._batch import PathLike, arguments_of, kill_children, run_part
 from ._batch_records import Row, Task
 from ._limits import MemoryAmount, bytes_of
@@ -327,6 +328,8 @@ def mesh(
         if output is None:
             raise ValueError("distributed.mesh: an output or a folder is needed")
         folder = Path(output).with_suffix(".parts")
+    if output is not None:
+        _require_format(output)
     division = _division_of(surface, folder, parts, options)
     rows = mesh_parts(division, client=client, jobs=jobs, threads=threads, time_limit=time_limit,
                       memory_limit=memory_limit, progress=progress)
@@ -337,6 +340,14 @@ def mesh(
     if output is not None:
         join(folder, output)
     return division
+
+
+def _require_format(output: PathLike) -> None:
+    """`join` would refuse the output, but only once all parts are done."""
+    ending = Path(output).suffix.lower()
+    formats = [*_core.volume_formats(), ".pvtu"]
+    if ending not in formats:
+        raise ValueError(f"{os.fspath(output)}: the format {ending!r} cannot be written; the formats are {', '.join(formats)}")
 
 
 def _division_of(surface: Any, folder: PathLike, parts: int, options: dict[str, Any]) -> Division:

@@ -68,6 +68,9 @@ def test_a_surface_that_is_no_file_is_refused(tmp_path):
 def test_what_goes_wrong_is_told(cube, tmp_path):
     with pytest.raises(TypeError, match="no option gradation"):
         holdfast.distributed.mesh(cube, folder=tmp_path / "d", parts=2, gradation=0.2)
+    with pytest.raises(ValueError, match="out.xyz: the format '.xyz' cannot be written"):
+        holdfast.distributed.mesh(cube, tmp_path / "out.xyz", folder=tmp_path / "d", parts=2)
+    assert not (tmp_path / "d").exists()
     with pytest.raises(holdfast.FileError):
         holdfast.distributed.split(tmp_path / "nothing.off", tmp_path / "d", parts=2)
     cube.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
