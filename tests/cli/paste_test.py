@@ -257,6 +257,14 @@ class PasteTest(CliTest):
         parts = [as_float32(rotated(p)) for p in (box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7))]
         self.require_pasted(parts, "--paste", interfaces={(1, 2): 1}, places=6)
 
+    def test_tips_that_rounding_puts_into_a_face(self):
+        """A tip beyond a face by less than doubles can tell: its sides were cut next to it, and it was lost."""
+        corners = [(0.3 + 0.25 * math.cos(k), 0.6 + 0.25 * math.sin(k), 1.5) for k in (0, 2 * math.pi / 3, 4 * math.pi / 3)]
+        tip = [(0.3, 0.6, 1.0), *corners], [(0, 2, 1), (0, 3, 2), (0, 1, 3), (1, 2, 3)]
+        for degrees in 118, 127, 136, 148, 153:
+            by = (degrees, 2 * degrees + 1, 3 * degrees + 2)
+            self.require_pasted([rotated(box((0, 0, 0), (1, 1, 1), 1), by), rotated(tip, by)], "--paste", interfaces={})
+
     def test_texts_of_floats_are_rounded_to_floats(self):
         """STL as text: 9 digits, and the usual 7."""
         parts = [rotated(p) for p in (box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7))]
