@@ -48,8 +48,9 @@ struct PastedPart {
 /// Two parts that overlap.
 struct PartOverlap {
   Index first, second;
-  double depth;  ///< the shortest side of the axis-parallel box round their overlap
-  Point where;   ///< the middle of the box
+  double depth;      ///< the shortest side of the axis-parallel box round their overlap
+  double thickness;  ///< of the overlap's thickest region: twice its volume over its area
+  Point where;       ///< the middle of the box
 };
 
 /// A part that touches no other.

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Optional
 
+from . import _core
 from ._batch import PathLike, arguments_of, kill_children, run_part
 from ._batch_records import Row, Task
 from ._limits import MemoryAmount, bytes_of
@@ -79,6 +80,15 @@ def _is_part(part: Any) -> bool:
     return isinstance(part, dict) and all(isinstance(part.get(key), str) for key in ("surface", "volume"))
 
 
+def _paths(surface: Any) -> list[PathLike]:
+    if isinstance(surface, (str, os.PathLike)):
+        return [surface]
+    if not isinstance(surface, (list, tuple)) or not all(isinstance(file, (str, os.PathLike)) for file in surface):
+        raise TypeError("a path is expected, or a list of paths, as the program reads the surface from files; "
+                        f"not {type(surface).__name__}")
+    return list(surface)
+
+
 def split(
     surface: typing.Union[PathLike, typing.Sequence[PathLike]],
     folder: PathLike,
@@ -105,7 +115,7 @@ def split(
     InvalidSurface, HoldfastError
         As `holdfast.mesh`.
     """
-    files = [surface] if isinstance(surface, (str, os.PathLike)) else list(surface)
+    files = _paths(surface)
     earlier: list[Path] = []
     with contextlib.suppress(FileNotFoundError, ValueError):
         there = read(folder)
@@ -117,7 +127,7 @@ def split(
 
 
 def mesh_parts(
-    division: Division,
+    division: typing.Union[Division, PathLike],
     *,
     client: Any = None,
     jobs: Optional[int] = None,
@@ -126,13 +136,15 @@ def mesh_parts(
     memory_limit: Optional[MemoryAmount] = None,
     progress: Optional[Progress] = None,
 ) -> list[Row]:
-    """Meshes the parts that have no volume yet, each in its own process.
+    """Meshes the parts that have no volume yet, or one that is older than the part, each in its own process.
 
     A part whose worker is lost runs again on another. One that takes much longer than the others runs a second time if
     a worker is free, and the first result counts: both are the same, bit for bit, and appear complete or not at all.
 
     Parameters
     ----------
+    division
+        What `split` returned, or its folder.
     client
         A Dask client or a `concurrent.futures` executor, whose workers see the folder; None: `jobs` threads here.
     threads, time_limit, memory_limit
@@ -144,6 +156,8 @@ def mesh_parts(
     -------
     One dict per part, in order, as in `holdfast.batch`.
     """
+    if not isinstance(division, Division):
+        division = read(division)
     limits = [] if time_limit is None else ["--time-limit", repr(float(time_limit))]
     memory = bytes_of(memory_limit)
     limits += [] if memory is None else ["--memory-limit", repr(memory / 1e9)]
@@ -162,7 +176,7 @@ def mesh_parts(
 
     to_do = []
     for task in tasks:
-        if os.path.exists(task.output):
+        if _is_newer(task.output, task.file):
             finish({"file": task.file, "output": task.output, "status": "skipped", "exit": 0, "seconds": 0.0,
                     "message": "complete already"})
         else:
@@ -173,6 +187,13 @@ def mesh_parts(
     else:
         _Race(client, finish).run(to_do)
     return [rows[task.output] for task in tasks]
+
+
+def _is_newer(volume: str, surface: str) -> bool:
+    """A folder that was split again may still have volumes of the parts before."""
+    with contextlib.suppress(FileNotFoundError):
+        return os.stat(volume).st_mtime_ns >= os.stat(surface).st_mtime_ns
+    return False
 
 
 class _Race:
@@ -307,6 +328,8 @@ def mesh(
         if output is None:
             raise ValueError("distributed.mesh: an output or a folder is needed")
         folder = Path(output).with_suffix(".parts")
+    if output is not None:
+        _require_format(output)
     division = _division_of(surface, folder, parts, options)
     rows = mesh_parts(division, client=client, jobs=jobs, threads=threads, time_limit=time_limit,
                       memory_limit=memory_limit, progress=progress)
@@ -319,9 +342,17 @@ def mesh(
     return division
 
 
+def _require_format(output: PathLike) -> None:
+    """`join` would refuse the output, but only once all parts are done."""
+    ending = Path(output).suffix.lower()
+    formats = [*_core.volume_formats(), ".pvtu"]
+    if ending not in formats:
+        raise ValueError(f"{os.fspath(output)}: the format {ending!r} cannot be written; the formats are {', '.join(formats)}")
+
+
 def _division_of(surface: Any, folder: PathLike, parts: int, options: dict[str, Any]) -> Division:
     """The existing division, if it comes from the same call and no input is newer."""
-    files = [surface] if isinstance(surface, (str, os.PathLike)) else list(surface)
+    files = _paths(surface)
     call = {"inputs": [os.path.abspath(f) for f in files], "parts": parts, "options": _with_limits(options)}
     record = Path(folder) / "call.json"
     with contextlib.suppress(OSError, ValueError):

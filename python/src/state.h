@@ -44,7 +44,7 @@ template <Is<RepairResult::Dropped> T> auto fields_of(T& d) { return std::tie(d.
 template <Is<RepairResult::Merged> T> auto fields_of(T& m) { return std::tie(m.facet, m.into); }
 template <Is<RepairResult::Filled> T> auto fields_of(T& f) { return std::tie(f.border, f.facets, f.is_plane); }
 template <Is<RepairResult::LeftOpen> T> auto fields_of(T& l) { return std::tie(l.border, l.reason); }
-template <Is<PartOverlap> T> auto fields_of(T& o) { return std::tie(o.first, o.second, o.depth, o.where); }
+template <Is<PartOverlap> T> auto fields_of(T& o) { return std::tie(o.first, o.second, o.depth, o.thickness, o.where); }
 template <Is<PartApart> T> auto fields_of(T& a) { return std::tie(a.part, a.nearest, a.distance, a.where); }
 template <Is<MidNodes> T> auto fields_of(T& m) { return std::tie(m.points, m.tetrahedra, m.facets, m.segments); }
 template <Is<PastedPart> T> auto fields_of(T& p) {

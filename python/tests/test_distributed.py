@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from subprocess import run
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import pytest
 import holdfast
 import holdfast.distributed
 from conftest import box
+from holdfast._program import program
 
 
 @pytest.fixture
@@ -47,9 +49,28 @@ def test_goes_on_where_it_stopped_and_begins_anew_for_another_call(cube, tmp_pat
     assert holdfast.distributed.check(tmp_path / "d")
 
 
+def test_volumes_of_an_earlier_split_are_made_anew(cube, tmp_path):
+    """The program's `split` leaves them, unlike that of this module."""
+    holdfast.distributed.mesh(cube, folder=tmp_path / "d", parts=2, size=0.3)
+    run([program(), "split", cube, "--parts", "2", "--size", "0.2", "-o", tmp_path / "d"], check=True, capture_output=True)
+    assert not holdfast.distributed.check(tmp_path / "d")
+    assert [row["status"] for row in holdfast.distributed.mesh_parts(tmp_path / "d")] == ["done", "done"]
+    assert holdfast.distributed.check(tmp_path / "d")
+    assert [row["status"] for row in holdfast.distributed.mesh_parts(tmp_path / "d")] == ["skipped", "skipped"]
+
+
+def test_a_surface_that_is_no_file_is_refused(tmp_path):
+    for surface in box(), holdfast.delaunay(box()[0]), 5, None:
+        with pytest.raises(TypeError, match="a path is expected"):
+            holdfast.distributed.mesh(surface, folder=tmp_path / "d", parts=2)
+
+
 def test_what_goes_wrong_is_told(cube, tmp_path):
     with pytest.raises(TypeError, match="no option gradation"):
         holdfast.distributed.mesh(cube, folder=tmp_path / "d", parts=2, gradation=0.2)
+    with pytest.raises(ValueError, match="out.xyz: the format '.xyz' cannot be written"):
+        holdfast.distributed.mesh(cube, tmp_path / "out.xyz", folder=tmp_path / "d", parts=2)
+    assert not (tmp_path / "d").exists()
     with pytest.raises(holdfast.FileError):
         holdfast.distributed.split(tmp_path / "nothing.off", tmp_path / "d", parts=2)
     cube.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")

@@ -21,6 +21,7 @@
 #include "holdfast/io.h"
 #include "mesh/limit_message.h"
 #include "numbers/float_environment.h"
+#include "repair/bounds.h"
 #include "repair/deliver.h"
 #include "repair/fuse.h"
 #include "repair/glue.h"
@@ -28,6 +29,7 @@
 #include "repair/rounding.h"
 #include "repair/settle.h"
 #include "repair/snap.h"
+#include "repair/weld.h"
 #include "surface/aabb_tree.h"
 #include "text/decimal.h"
 
@@ -73,12 +75,9 @@ double largest_coordinate(const Complex& complex) {
 }
 
 /// The largest gap that rounding of coordinates may leave between touching parts; they are rounded to floats
-/// if all of them are floats.
+/// if all of them are floats, in binary or as text.
 double rounding_of(const Complex& complex) {
-  constexpr double kMost = std::numeric_limits<float>::max();
-  const auto is_float = [](double x) {
-    return !std::isfinite(x) || (std::fabs(x) <= kMost && static_cast<double>(static_cast<float>(x)) == x);
-  };
+  const auto is_float = [](double x) { return !std::isfinite(x) || is_text_of_float(x); };
   // Vertices inside a volume, of which a part is the surface, are ignored.
   const bool are_floats = std::all_of(complex.facets.begin(), complex.facets.end(), [&](const Triangle& t) {
     return std::all_of(t.begin(), t.end(), [&](Index v) {
@@ -216,40 +215,67 @@ void end_without_surface(const PasteOptions& options, const std::string& message
         "details";
 }
 
-/// Cuts touching and crossing parts so that they fit; nullopt if no such surface is found.
-std::optional<repairing::Rounded> fit(repairing::State state, const Complex& complex,
-                                      const PasteOptions& options, const std::string& advice,
-                                      const Step& step, const Threads& threads, PasteResult& result) {
+/// Parts where they touch.
+struct Together {
+  repairing::State state;
+  double moved = 0;
+};
+
+Together bring_together(const Complex& complex, const PasteOptions& options, const Step& step,
+                        const Threads& threads, PasteResult& result) {
   const std::vector<Index>& part = result.part_of_facet;
-  const bool has_tolerance = options.tolerance > 0;
   const double rounding = rounding_of(complex), gap = std::max(options.tolerance, rounding);
   result.gap = gap;
-  const auto to = has_tolerance ? repairing::SnapTo::all : repairing::SnapTo::vertices;
-  double moved = repairing::snap(state, part, to, gap, step, threads);
-  repairing::glue(state, part);
-  moved += repairing::fuse(state, part, gap, rounding, step);
-  repairing::glue(state, part);
+  const auto to = options.tolerance > 0 ? repairing::SnapTo::all : repairing::SnapTo::vertices;
+  Together parts{repairing::state_of(complex)};
+  parts.moved = repairing::snap(parts.state, part, to, gap, step, threads);
+  repairing::glue(parts.state, part);
+  parts.moved += repairing::fuse(parts.state, part, gap, rounding, step);
+  repairing::glue(parts.state, part);
+  return parts;
+}
+
+/// Cuts touching and crossing parts so that they fit; nullopt if no such surface is found.
+std::optional<repairing::Rounded> fit(const Complex& complex, const PasteOptions& options,
+                                      const std::string& advice, const Step& step, const Threads& threads,
+                                      PasteResult& result) {
   const auto end = [&](const std::string& message) {
     end_without_surface(options, message, advice, result);
     return std::nullopt;
   };
+  Together parts = bring_together(complex, options, step, threads, result);
   const std::string within = " within " + decimal(options.tolerance) + " of ";
-  if (has_tolerance && is_hopeless(state, step, threads))
+  if (options.tolerance > 0 && is_hopeless(parts.state, step, threads))
     return end("the parts, brought together" + within + "each other, cross nearly everywhere");
-  ExactSurface exact;
-  RepairOptions arranging;
-  static_cast<Limits&>(arranging) = options;
   // If there is advice, details below the tolerance are the obstacle; reporting that is better than long
   // trials.
   const auto trials = advice.empty() ? repairing::Trials::all : repairing::Trials::near_trouble;
-  repairing::Rounded rounded =
-      repairing::round_arranged(std::move(state), arranging, result.report, exact, step, threads, trials);
-  rounded.displacement += moved;
+  RepairOptions arranging;
+  static_cast<Limits&>(arranging) = options;
+  const auto rounded_of = [&](Together&& given) {
+    ExactSurface exact;
+    repairing::Rounded rounded = repairing::round_arranged(std::move(given.state), arranging, result.report,
+                                                           exact, step, threads, trials);
+    rounded.displacement += given.moved;
+    return rounded;
+  };
+  const auto opened_by = [&](const repairing::Rounded& rounded) {
+    return repairing::opened_part(repairing::state_of(complex), rounded.state, result.part_of_facet);
+  };
+  repairing::Rounded rounded = rounded_of(std::move(parts));
   if (!rounded.is_valid)
     return end("no doubles were found for the new points with which the surface is valid");
-  const Index opened = repairing::opened_part(repairing::state_of(complex), rounded.state, part);
-  if (opened != no_index) return end(opened_text(result.parts[opened], options.tolerance, gap));
-  return rounded;
+  const Index opened = opened_by(rounded);
+  if (opened == no_index) return rounded;
+  // A corner that reaches into another part by less than doubles can tell is cut off and stays as a strip.
+  // The surface that it touches can be led through it instead.
+  for (const double last_bits : {repairing::kThinnest / 8, repairing::kThinnest}) {
+    parts = bring_together(complex, options, step, threads, result);
+    parts.moved += repairing::weld(parts.state, last_bits * repairing::last_bit(parts.state.vertices), step);
+    rounded = rounded_of(std::move(parts));
+    if (rounded.is_valid && opened_by(rounded) == no_index) return rounded;
+  }
+  return end(opened_text(result.parts[opened], options.tolerance, result.gap));
 }
 
 void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monitor, PasteResult& result) {
@@ -261,14 +287,13 @@ void run(const Surface& joined, const PasteOptions& options, PlainMonitor& monit
     require_smaller_than_parts(complex, result, options.tolerance);
     advice = advice_on_tolerance(complex, result, options.tolerance, step);
   }
-  repairing::State state = repairing::state_of(complex);
   repairing::Rounded rounded;
   if (options.cut) {
-    std::optional<repairing::Rounded> fitted =
-        fit(std::move(state), complex, options, advice, step, threads, result);
+    std::optional<repairing::Rounded> fitted = fit(complex, options, advice, step, threads, result);
     if (!fitted) return;
     rounded = *std::move(fitted);
   } else {
+    repairing::State state = repairing::state_of(complex);
     repairing::glue(state, result.part_of_facet);
     rounded.state = std::move(state);
   }

@@ -1,12 +1,14 @@
 // The union of the parts of a surface.
 //
-// The arrangement divides space into regions, and each facet has one on either side. For one
-// component of the input, all other facets are air: regions separated only by them are one. The regions that
-// its own facets separate have a winding number if the facets are consistently oriented; otherwise each
-// region is inside or outside.
+// The arrangement divides space into regions, and each facet has one on either side. Components of the input
+// whose borders meet in it are one. For one component, all other facets are air: regions separated only by
+// them are one. The regions that its own facets separate have a winding number if the facets are consistently
+// oriented; otherwise each region is inside or outside.
 #include "api/unite.h"
 
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <map>
 #include <optional>
 
@@ -102,6 +104,7 @@ class ComponentWalls {
   ComponentWalls(const Complex& input, const repairing::State& state, const DividedSpace& division)
       : input_(input), state_(state), division_(division), component_(components_of(input)) {
     find_components_at_vertices();
+    join_at_borders();
     for (std::size_t f = 0; f < state_.facets.size(); ++f) add_facet(f);
   }
 
@@ -128,20 +131,48 @@ class ComponentWalls {
         for (const Index v : state_.facets[f]) component_at_[v] = component_[p];
   }
 
+  /// The components to which a facet belongs. One that fills a hole belongs to the component that has its
+  /// corners.
+  [[nodiscard]] std::vector<Index> components_of_facet(std::size_t f) const {
+    std::vector<Index> own;
+    for (const Index p : state_.facet_parents.of(f)) own.push_back(component_[p]);
+    if (own.empty()) own.push_back(component_at_[state_.facets[f][0]]);
+    sort_unique(own);
+    return own;
+  }
+
+  /// Components that only together enclose anything become one: a side is on the border of each of them, for
+  /// example since a weld joined them there.
+  void join_at_borders() {
+    struct Border {
+      std::array<Index, 2> side;
+      Index component;
+      auto operator<=>(const Border&) const = default;
+    };
+    std::vector<Border> borders;
+    for (std::size_t f = 0; f < state_.facets.size(); ++f) {
+      const Triangle& t = state_.facets[f];
+      for (const Index component : components_of_facet(f))
+        for (std::size_t k = 0; k < 3; ++k)
+          borders.push_back({ascending(std::array{t[k], t[(k + 1) % 3]}), component});
+    }
+    sort_odd(borders);
+    DisjointSets sets(input_.vertices.size());
+    for (std::size_t i = 1; i < borders.size(); ++i)
+      if (borders[i].side == borders[i - 1].side) sets.unite(borders[i].component, borders[i - 1].component);
+    for (Index& component : component_) component = sets.root(component);
+    for (Index& component : component_at_) component = sets.root(component);
+  }
+
   void add_facet(std::size_t f) {
     const auto [front, back] = division_.of_facet[f];
-    std::vector<Index> own;
+    const std::vector<Index> own = components_of_facet(f);
     for (const Index p : state_.facet_parents.of(f)) {
-      own.push_back(component_[p]);
       const bool is_alike =
           turned_alike(state_.vertices, state_.facets[f], input_.vertices, input_.facets[p]);
       walls_[component_[p]].push_back(is_alike ? RegionPair{front, back} : RegionPair{back, front});
     }
-    sort_unique(own);
-    if (own.empty()) {  // then it fills a hole of the component that has its corners
-      own.push_back(component_at_[state_.facets[f][0]]);
-      walls_[own[0]].push_back({front, back});
-    }
+    if (state_.facet_parents.of(f).empty()) walls_[own[0]].push_back({front, back});
     if (front != back) note_common(RegionPair{std::min(front, back), std::max(front, back)}, own);
   }
 
@@ -157,7 +188,7 @@ class ComponentWalls {
   const Complex& input_;
   const repairing::State& state_;
   const DividedSpace& division_;
-  const std::vector<Index> component_;              // by facet of the input
+  std::vector<Index> component_;                    // by facet of the input
   std::vector<Index> component_at_;                 // by vertex of the arrangement
   std::map<Index, std::vector<RegionPair>> walls_;  // by component
   // By two regions: the components to which every facet between them belongs.

@@ -96,8 +96,9 @@ class Chooser {
     kept_.rule = box ? Keep::box : holders.conflict ? Keep::bounded : Keep::winding;
     kept_.conflict = holders.conflict;
     kept_.turned = holders.turned;
-    if (parts.gap > 0) settle_thin_regions(regions_, parts, complex_, std::ldexp(parts.gap, scale_), holders);
-    kept_.overlaps = find_overlaps(regions_, holders, complex_);
+    const std::vector<double> thickness = thickness_of_common(regions_, holders, complex_, scale_);
+    if (parts.gap > 0) settle_thin_regions(thickness, parts, holders);
+    kept_.overlaps = find_overlaps(regions_, holders, complex_, thickness);
     of_parts_ = ids_of_held(holders, parts);
     kept_.region.assign(regions_.count, box);
     for (RegionId r = 0; r < regions_.count; ++r) kept_.region[r] = box || of_parts_[r].has_value();

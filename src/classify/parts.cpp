@@ -132,13 +132,18 @@ Holders find_holders(const Regions& regions, const PartsOfComplex& parts, Keep k
   return holders;
 }
 
-void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, const Complex& complex,
-                         double gap, Holders& holders) {
+std::vector<double> thickness_of_common(const Regions& regions, const Holders& holders,
+                                        const Complex& complex, int scale) {
   struct Measures {
     std::optional<Point> origin;
     double volume = 0, area = 0;
   };
   std::vector<Measures> measures(regions.count);
+  const auto scaled = [&](Index v) {
+    Point p = complex.vertices[v];
+    for (double& x : p) x = std::ldexp(x, scale);
+    return p;
+  };
   for (std::size_t f = 0; f < regions.of_facet.size(); ++f) {
     const auto& [front, back] = regions.of_facet[f];
     if (front == back) continue;
@@ -146,24 +151,37 @@ void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, co
     for (const RegionId r : {front, back}) {
       if (holders.of_region[r].size() < 2) continue;
       Measures& of = measures[r];
-      if (!of.origin) of.origin = complex.vertices[a];
-      const Point& p = complex.vertices[a];
-      const Vector n = cross(complex.vertices[b] - p, complex.vertices[c] - p);
+      const Point p = scaled(a);
+      if (!of.origin) of.origin = p;
+      const Vector n = cross(scaled(b) - p, scaled(c) - p);
       const double six_volumes = dot(p - *of.origin, n);
       of.volume += (r == front ? six_volumes : -six_volumes) / 6;
       of.area += length(n) / 2;
     }
   }
-  for (RegionId r = 0; r < regions.count; ++r) {
+  std::vector<double> thickness(regions.count, 0);
+  for (RegionId r = 0; r < regions.count; ++r)
+    if (const Measures& of = measures[r]; of.area > 0)
+      thickness[r] = std::ldexp(2 * std::fabs(of.volume) / of.area, -scale);
+  return thickness;
+}
+
+void settle_thin_regions(const std::vector<double>& thickness, const PartsOfComplex& parts,
+                         Holders& holders) {
+  for (RegionId r = 0; r < thickness.size(); ++r) {
     auto& claims = holders.of_region[r];
-    if (claims.size() < 2 || !(2 * std::fabs(measures[r].volume) <= gap * measures[r].area)) continue;
+    if (claims.size() < 2 || !(thickness[r] <= parts.gap)) continue;
     claims = {parts.overlap == Overlap::last ? claims.back() : claims.front()};
   }
 }
 
-std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& holders,
-                                       const Complex& complex) {
-  std::map<std::array<Index, 2>, Box> boxes;
+std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& holders, const Complex& complex,
+                                       const std::vector<double>& thickness) {
+  struct Common {
+    Box box;
+    double thickness = 0;
+  };
+  std::map<std::array<Index, 2>, Common> all;
   for (std::size_t f = 0; f < regions.of_facet.size(); ++f)
     for (const RegionId r : regions.of_facet[f]) {
       const auto& claims = holders.of_region[r];
@@ -171,15 +189,17 @@ std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& ho
         for (std::size_t j = i + 1; j < claims.size(); ++j)
           for (const Index v : complex.facets[f]) {
             const Box corner{complex.vertices[v], complex.vertices[v]};
-            boxes.try_emplace({claims[i].part, claims[j].part}, corner).first->second.extend(corner);
+            Common& common = all.try_emplace({claims[i].part, claims[j].part}, Common{corner}).first->second;
+            common.box.extend(corner);
+            common.thickness = std::max(common.thickness, thickness[r]);
           }
     }
   std::vector<PartOverlap> overlaps;
-  for (const auto& [pair, box] : boxes) {
-    PartOverlap overlap{pair[0], pair[1], std::numeric_limits<double>::infinity(), {}};
+  for (const auto& [pair, common] : all) {
+    PartOverlap overlap{pair[0], pair[1], std::numeric_limits<double>::infinity(), common.thickness, {}};
     for (std::size_t k = 0; k < 3; ++k) {
-      overlap.depth = std::min(overlap.depth, box.high[k] - box.low[k]);
-      overlap.where[k] = box.centre(k);
+      overlap.depth = std::min(overlap.depth, common.box.high[k] - common.box.low[k]);
+      overlap.where[k] = common.box.centre(k);
     }
     overlaps.push_back(overlap);
   }
@@ -190,12 +210,17 @@ std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& ho
 
 std::string overlap_message(const PartsOfComplex& parts) {
   const PartOverlap& worst = parts.overlaps.front();
+  // The box round a thin sheet is as deep as the sheet is wide, unless it is parallel to an axis.
+  constexpr double kMuchThinner = 16;
+  const std::string thin = worst.depth > kMuchThinner * worst.thickness
+                               ? ", where their common space is " + decimal(worst.thickness, 3) + " thick"
+                               : "";
   const std::string others =
       parts.overlaps.size() == 1
           ? ""
           : "; so do " + std::to_string(parts.overlaps.size() - 1) + " other pairs of parts";
   return parts.parts[worst.first].name + " and " + parts.parts[worst.second].name + " overlap by " +
-         decimal(worst.depth, 6) + " at " + place(worst.where) + others;
+         decimal(worst.depth, 6) + " at " + place(worst.where) + thin + others;
 }
 
 std::vector<std::optional<int>> ids_of_held(const Holders& holders, const PartsOfComplex& parts) {

@@ -60,14 +60,19 @@ using FindRegion = std::function<RegionId(const Point& where, const char* what)>
 [[nodiscard]] Holders find_holders(const Regions& regions, const PartsOfComplex& parts, Keep keep,
                                    const FindRegion& find);
 
+/// The mean thickness of regions that several parts hold: twice the volume over the area. 0 for other
+/// regions. Measures of the complex times 2^scale do not overflow or underflow.
+[[nodiscard]] std::vector<double> thickness_of_common(const Regions& regions, const Holders& holders,
+                                                      const Complex& complex, int scale);
+
 /// Leaves one claim, of the first part (or of the last, if `parts.overlap` says so), on regions whose mean
-/// thickness is at most `gap`, which is in the complex's units.
-void settle_thin_regions(const Regions& regions, const PartsOfComplex& parts, const Complex& complex,
-                         double gap, Holders& holders);
+/// thickness is at most `parts.gap`.
+void settle_thin_regions(const std::vector<double>& thickness, const PartsOfComplex& parts, Holders& holders);
 
 /// The pairs of parts that hold regions in common, and how deep these are.
 [[nodiscard]] std::vector<PartOverlap> find_overlaps(const Regions& regions, const Holders& holders,
-                                                     const Complex& complex);
+                                                     const Complex& complex,
+                                                     const std::vector<double>& thickness);
 
 /// One sentence on the deepest of some overlaps.
 [[nodiscard]] std::string overlap_message(const PartsOfComplex& parts);

@@ -215,6 +215,7 @@ void AtomicWriter::finish() {
   if (nameless_) give_name();
   const int handle = std::exchange(file_, -1);
   if (::close(handle) != 0 && errno != EINTR) fail("cannot be written", errno);
+  buffer_.reset();  // there may be thousands of finished files
 }
 
 void AtomicWriter::commit() {

@@ -52,7 +52,12 @@ class FoamFile {
   }
 
   void finish() {
-    if (gzip_) deflate_pending(Z_FINISH);
+    if (gzip_) {
+      deflate_pending(Z_FINISH);
+      deflateEnd(&stream_);
+      gzip_ = false;
+    }
+    room_.reset();
     out_.finish();
   }
   void commit() { out_.commit(); }

@@ -4,6 +4,7 @@
 // (upper-triangular order); then the faces of each patch. A face's normal points out of its owner.
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "holdfast/partition.h"
+#include "io/foam_file.h"
 #include "io/labels.h"
 
 namespace holdfast::io {
@@ -70,9 +72,19 @@ class FoamNamesOfPieces {
 /// The files of a polyMesh, with their folder.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_poly_mesh(const std::filesystem::path& folder);
 
-/// Writes the files of a polyMesh into a folder, which is created if necessary; `process` is the number of
-/// the process that the mesh belongs to, if any.
-void write_foam_mesh(const std::filesystem::path& folder, const FoamMesh& mesh, const Volume& volume,
-                     bool gzip, Watch& watch, Index process = no_entity);
+/// Complete files of polyMeshes that do not have their names yet.
+class FoamFiles {
+ public:
+  /// Writes a polyMesh into a folder, which is created if necessary; `process` is the number of the process
+  /// that the mesh belongs to, if any.
+  void add(const std::filesystem::path& folder, const FoamMesh& mesh, const Volume& volume, bool gzip,
+           Watch& watch, Index process = no_entity);
+  /// Gives all files their names.
+  void commit();
+
+ private:
+  std::deque<FoamFile> files_;
+  std::vector<std::filesystem::path> outdated_;  ///< what OpenFOAM might read instead
+};
 
 }  // namespace holdfast::io

@@ -4,6 +4,7 @@
 // come last; their faces have the same order on both sides and start at the same vertex, with opposite
 // orientations.
 #include <system_error>
+#include <vector>
 
 #include "io/foam_mesh.h"
 #include "io/formats.h"
@@ -28,6 +29,27 @@ void require_no_more(const std::filesystem::path& path, std::size_t parts) {
                         ", and OpenFOAM counts these folders; remove it and those after it");
 }
 
+/// Folders of processes that do not exist yet. Those that are still empty in the end are removed: OpenFOAM
+/// counts them.
+class NewFolders {
+ public:
+  NewFolders() = default;
+  NewFolders(NewFolders&&) = delete;
+  ~NewFolders() {
+    std::error_code error;
+    for (const std::filesystem::path& mesh : meshes_)
+      for (const auto& folder : {mesh, mesh.parent_path(), mesh.parent_path().parent_path()})
+        std::filesystem::remove(folder, error);
+  }
+  void add(const std::filesystem::path& mesh) {
+    std::error_code error;
+    if (!std::filesystem::exists(mesh.parent_path().parent_path(), error)) meshes_.push_back(mesh);
+  }
+
+ private:
+  std::vector<std::filesystem::path> meshes_;
+};
+
 }  // namespace
 
 std::filesystem::path processor_mesh(const std::filesystem::path& path, std::size_t k) {
@@ -43,12 +65,16 @@ void write_processors(const std::filesystem::path& path, std::size_t parts, cons
     names_of_pieces.add(own_volume(piece), piece, watch);
   }
   const FoamNames names = names_of_pieces.take();
+  NewFolders folders;
+  FoamFiles files;
   for (std::size_t k = 0; k < parts; ++k) {
     const MeshPiece piece = load(k);
     const Volume own = own_volume(piece);
-    write_foam_mesh(processor_mesh(path, k), foam_mesh(own, piece, names, watch), own, options.gzip, watch,
-                    static_cast<Index>(k));
+    const std::filesystem::path folder = processor_mesh(path, k);
+    folders.add(folder);
+    files.add(folder, foam_mesh(own, piece, names, watch), own, options.gzip, watch, static_cast<Index>(k));
   }
+  files.commit();
 }
 
 }  // namespace holdfast::io

@@ -118,8 +118,8 @@ std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& p
   return files_of_poly_mesh(poly_mesh_of(path));
 }
 
-void write_foam_mesh(const std::filesystem::path& folder, const FoamMesh& mesh, const Volume& volume,
-                     bool gzip, Watch& watch, Index process) {
+void FoamFiles::add(const std::filesystem::path& folder, const FoamMesh& mesh, const Volume& volume,
+                    bool gzip, Watch& watch, Index process) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder, "", "the folder cannot be made (" + error.message() + ")");
@@ -127,27 +127,34 @@ void write_foam_mesh(const std::filesystem::path& folder, const FoamMesh& mesh, 
                            " nCells: " + std::to_string(volume.tetrahedra.size()) +
                            " nFaces: " + std::to_string(mesh.inside.size() + mesh.boundary.size()) +
                            " nInternalFaces: " + std::to_string(mesh.inside.size());
-  FoamFile points(folder, "points", "vectorField", gzip, watch);
-  FoamFile faces(folder, "faces", "faceList", gzip, watch);
-  FoamFile owner(folder, "owner", "labelList", gzip, watch, note);
-  FoamFile neighbour(folder, "neighbour", "labelList", gzip, watch, note);
-  FoamFile boundary(folder, "boundary", "polyBoundaryMesh", gzip, watch, {}, &mesh.facets);
-  FoamFile cell_zones(folder, "cellZones", "regIOobject", gzip, watch, {}, &mesh.regions);
-  FoamFile face_zones(folder, "faceZones", "regIOobject", gzip, watch, {}, &mesh.facets);
+  const auto open = [&](std::string_view object, std::string_view type, const std::string& of = {},
+                        const Labels* labels = nullptr) -> FoamFile& {
+    return files_.emplace_back(folder, object, type, gzip, watch, of, labels);
+  };
+  const std::size_t first = files_.size();
+  FoamFile& points = open("points", "vectorField");
+  FoamFile& faces = open("faces", "faceList");
+  FoamFile& owner = open("owner", "labelList", note);
+  FoamFile& neighbour = open("neighbour", "labelList", note);
+  FoamFile& boundary = open("boundary", "polyBoundaryMesh", {}, &mesh.facets);
+  FoamFile& cell_zones = open("cellZones", "regIOobject", {}, &mesh.regions);
+  FoamFile& face_zones = open("faceZones", "regIOobject", {}, &mesh.facets);
   write_faces(points, faces, owner, neighbour, mesh, volume, watch);
   write_patches(boundary, mesh, process);
   write_cell_zones(cell_zones, mesh);
   write_face_zones(face_zones, mesh, volume);
-  FoamFile* const all[] = {&points, &faces, &owner, &neighbour, &boundary, &cell_zones, &face_zones};
-  // All files are completed before any gets its name.
-  for (FoamFile* file : all) file->finish();
-  for (FoamFile* file : all) file->commit();
-  // OpenFOAM reads the uncompressed file if both exist.
+  for (std::size_t i = first; i < files_.size(); ++i) files_[i].finish();
   for (const std::filesystem::path& name : files_of_poly_mesh(folder)) {
-    std::filesystem::path other = name;
-    if (!gzip) other += ".gz";
-    std::filesystem::remove(other, error);
+    outdated_.push_back(name);
+    if (!gzip) outdated_.back() += ".gz";
   }
+}
+
+// OpenFOAM reads the uncompressed file if both exist.
+void FoamFiles::commit() {
+  for (FoamFile& file : files_) file.commit();
+  std::error_code error;
+  for (const std::filesystem::path& name : outdated_) std::filesystem::remove(name, error);
 }
 
 void write_openfoam(const std::filesystem::path& path, const Volume& volume, const WriteOptions& options,
@@ -155,7 +162,9 @@ void write_openfoam(const std::filesystem::path& path, const Volume& volume, con
   if (volume.tetrahedra.empty())
     throw FileError(poly_mesh_of(path), "",
                     "a surface without tetrahedra has no place in OpenFOAM; its STL files take it");
-  write_foam_mesh(poly_mesh_of(path), foam_mesh(volume, watch), volume, options.gzip, watch);
+  FoamFiles files;
+  files.add(poly_mesh_of(path), foam_mesh(volume, watch), volume, options.gzip, watch);
+  files.commit();
 }
 
 std::vector<Remark> not_in_openfoam(const Volume& volume, const WriteOptions&) {

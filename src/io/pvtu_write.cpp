@@ -3,6 +3,7 @@
 // piece, and a file that lists them. Ghosts have 1 in vtkGhostType, as VTK's
 // vtkDataSetAttributes::DUPLICATECELL and DUPLICATEPOINT.
 #include <bit>
+#include <deque>
 #include <system_error>
 
 #include "io/formats.h"
@@ -158,29 +159,29 @@ std::filesystem::path pvtu_piece(const std::filesystem::path& path, std::size_t 
 void write_pvtu(const std::filesystem::path& path, std::size_t parts, const PieceLoader& load,
                 const WriteOptions& options, Watch& watch) {
   const std::filesystem::path surface = surface_beside(path);
-  // An old list must not name new pieces mixed with old ones.
-  std::error_code error;
-  for (const auto& index : {path, surface}) std::filesystem::remove(index, error);
+  std::deque<AtomicWriter> files;
   for (std::size_t k = 0; k < parts; ++k) {
     const MeshPiece piece = load(k);
     const std::filesystem::path name = pvtu_piece(path, k);
-    AtomicWriter grid(name, &watch), bounds(surface_beside(name), &watch);
-    write_grid(grid, piece, k, options);
+    AtomicWriter& bounds = files.emplace_back(surface_beside(name), &watch);
     write_surface_grid(bounds, piece, k, options);
-    grid.finish();
     bounds.finish();
-    bounds.commit();
-    grid.commit();
+    AtomicWriter& grid = files.emplace_back(name, &watch);
+    write_grid(grid, piece, k, options);
+    grid.finish();
   }
-  AtomicWriter index(path, &watch), surface_index(surface, &watch);
-  write_index(index, parts, options.compress, kCellArrays, kPointArrays,
-              [&](std::size_t k) { return pvtu_piece(path, k); });
+  AtomicWriter& surface_index = files.emplace_back(surface, &watch);
   write_index(surface_index, parts, options.compress, kSurfaceCellArrays, kSurfacePointArrays,
               [&](std::size_t k) { return surface_beside(pvtu_piece(path, k)); });
-  index.finish();
   surface_index.finish();
-  surface_index.commit();
-  index.commit();
+  AtomicWriter& index = files.emplace_back(path, &watch);
+  write_index(index, parts, options.compress, kCellArrays, kPointArrays,
+              [&](std::size_t k) { return pvtu_piece(path, k); });
+  index.finish();
+  // An old list must not name new pieces mixed with old ones, whatever ends this process.
+  std::error_code error;
+  for (const auto& list : {path, surface}) std::filesystem::remove(list, error);
+  for (AtomicWriter& file : files) file.commit();
 }
 
 }  // namespace holdfast::io

@@ -22,8 +22,10 @@ Json to_json(const PasteResult& result, Json options) {
   json["shared_facets"] = result.shared_facets;
   json["overlaps"] = Json::array();
   for (const PartOverlap& overlap : result.overlaps)
-    json["overlaps"].push_back(
-        {{"parts", {overlap.first, overlap.second}}, {"depth", overlap.depth}, {"where", overlap.where}});
+    json["overlaps"].push_back({{"parts", {overlap.first, overlap.second}},
+                                {"depth", overlap.depth},
+                                {"thickness", overlap.thickness},
+                                {"where", overlap.where}});
   json["apart"] = Json::array();
   for (const PartApart& apart : result.apart)
     json["apart"].push_back(

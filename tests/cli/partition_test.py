@@ -98,6 +98,23 @@ class Partitioned(CliTest):
                 self.assertEqual((self.folder / f"a_{k}{end}.vtu").read_bytes(),
                                  (self.folder / f"b_{k}{end}.vtu").read_bytes())
 
+    def test_pieces_appear_together_or_not_at_all(self):
+        """The disk is full for a file of the last piece, when the others are complete."""
+        self.run_program("mesh", "cube.off", "-o", "whole.mesh", "--size", 0.2)
+        self.run_program("convert", "whole.mesh", "p.pvtu", "--partition", 2)
+        before = {path.name: path.read_bytes() for path in self.folder.glob("p*")}
+        full = self.folder / "p_2.vtu"
+        full.symlink_to("/dev/full")
+        self.run_program("convert", "whole.mesh", "p.pvtu", "--partition", 3, expect=3)
+        full.unlink()
+        self.assertEqual({path.name: path.read_bytes() for path in self.folder.glob("p*")}, before)
+        full = self.folder / "case/processor2/constant/polyMesh/faceZones"
+        full.parent.mkdir(parents=True)
+        full.symlink_to("/dev/full")
+        self.run_program("convert", "whole.mesh", "case", "--format", "openfoam", "--partition", 3, expect=3)
+        self.assertEqual([path.name for path in (self.folder / "case").iterdir()], ["processor2"])
+        self.assertEqual(list(full.parent.iterdir()), [full])
+
     def test_processors_of_openfoam_have_the_same_patches(self):
         self.write_two()
         self.run_program("mesh", "two.mesh", "-o", "case", "--format", "openfoam", "--size", 0.3, "--partition", 4,

@@ -257,6 +257,34 @@ class PasteTest(CliTest):
         parts = [as_float32(rotated(p)) for p in (box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7))]
         self.require_pasted(parts, "--paste", interfaces={(1, 2): 1}, places=6)
 
+    def test_tips_that_rounding_puts_into_a_face(self):
+        """A tip beyond a face by less than doubles can tell: its sides were cut next to it, and it was lost."""
+        corners = [(0.3 + 0.25 * math.cos(k), 0.6 + 0.25 * math.sin(k), 1.5) for k in (0, 2 * math.pi / 3, 4 * math.pi / 3)]
+        tip = [(0.3, 0.6, 1.0), *corners], [(0, 2, 1), (0, 3, 2), (0, 1, 3), (1, 2, 3)]
+        for degrees in 118, 127, 136, 148, 153:
+            by = (degrees, 2 * degrees + 1, 3 * degrees + 2)
+            self.require_pasted([rotated(box((0, 0, 0), (1, 1, 1), 1), by), rotated(tip, by)], "--paste", interfaces={})
+
+    def test_texts_of_floats_are_rounded_to_floats(self):
+        """STL as text: 9 digits, and the usual 7."""
+        parts = [rotated(p) for p in (box((0, 0, 0), (1, 1, 1), 4), box((1, 0, 0), (2, 1, 1), 7))]
+        for digits in 9, 7:
+            written = [([tuple(float(f"{x:.{digits}g}") for x in p) for p in as_float32(part)[0]], part[1])
+                       for part in parts]
+            self.require_pasted(written, "--paste", interfaces={(1, 2): 1}, places=5)
+
+    def test_a_thin_overlap_names_its_thickness(self):
+        """The box round it is as large as the interface, which is turned; its thickness says which T to ask for."""
+        parts = [rotated(p) for p in (box((0, 0, 0), (1, 1, 1), 2), box((0.999, 0, 0), (2, 1, 1), 3))]
+        ended = self.mesh(self.parts(*parts), "--paste", expect=4)
+        self.assertRegex(ended.stderr, r"where their common space is 0\.000998 thick")
+        self.mesh(self.parts(*parts), "--paste=0.002")
+
+    def test_overlap_at_any_scale(self):
+        for scale in 1e-160, 1e-25, 1e25, 1e100:
+            a, b = (([tuple(x * scale for x in p) for p in part[0]], part[1]) for part in self.overlapping())
+            self.assertIn("overlap by", self.mesh(self.parts(a, b), "--paste", expect=4).stderr)
+
     def test_points_inside_a_volume_do_not_tell_how_its_surface_is_rounded(self):
         a = as_float32(rotated(box((0, 0, 0), (1, 1, 1), 3)))
         b = as_float32(rotated(box((1, 0, 0), (2, 1, 1), 4)))

@@ -166,8 +166,8 @@ class Pieces(CliTest):
                 said = self.run_program(*command, expect=3).stderr
                 self.assertIn(message, said)
                 self.assertIn("p.pvtu", said)
-        self.write("p.pvtu", index("a.vtu", kind="PPolyData"))
-        self.assertIn("line 1: the type 'PPolyData' is not read", self.run_program("info", "p.pvtu", expect=3).stderr)
+        self.write("p.pvtu", index("a.vtu", kind="PImageData"))
+        self.assertIn("line 1: the type 'PImageData' is not read", self.run_program("info", "p.pvtu", expect=3).stderr)
         self.write("p.pvtu", index("a.vtu", "b.vtu"))
         for ids, message in (((0, 1, 2, 3), "point 0: it has the id 0 in the whole, as a point at another place has in"),
                              ((-1, 5, 6, 7), "point 0: its id in the whole, -1, is negative")):

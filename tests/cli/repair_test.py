@@ -228,6 +228,15 @@ class WhatIsMade(Repaired):
         self.assertIn("note: 11 of 15 triangles have material on both sides or, as those of an open part, on neither",
                       self.run_program("repair", "in.off", "-o", "out.off", "--union").stderr)
 
+    def test_a_union_of_what_a_weld_closes(self):
+        """Every triangle has corners of its own, some last digits apart, as in STL of poor programs."""
+        points = [tuple(x + 1e-9 * (3 * f + k) for x in CUBE_POINTS[v])
+                  for f, facet in enumerate(CUBE_FACETS) for k, v in enumerate(facet)]
+        self.write("in.off", off(points, [(3 * f, 3 * f + 1, 3 * f + 2) for f in range(len(CUBE_FACETS))]))
+        self.repair("in.off", options=["--weld", "1e-6", "--union"])
+        self.check("in.off")
+        self.assertEqual(self.report()["dropped"], [])
+
     def test_union(self):
         self.write("in.off", off(*two_cubes()))
         self.repair("in.off", options=["--union"])

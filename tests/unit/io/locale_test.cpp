@@ -148,5 +148,13 @@ TEST_F(Locale, NumbersOfJson) {
   EXPECT_EQ(read_surface(path).vertices[0], (Point{1.5, 0.225, -0.1}));
 }
 
+TEST(Decimal, TellsTextsOfFloatsFromDoubles) {
+  for (const double x :
+       {0.0, -1.5, 0.333333343, 0.3333333, 0.333333, 0.33333334326744080, 1002.684265, -1e30, 6.12323e-17})
+    EXPECT_TRUE(is_text_of_float(x)) << x;
+  for (const double x : {1.0 / 3, 0.99999999, 1 + 1e-9, 1e300, 1e-300, HUGE_VAL, std::nan("")})
+    EXPECT_FALSE(is_text_of_float(x)) << x;
+}
+
 }  // namespace
 }  // namespace holdfast::locale_test

@@ -44,5 +44,18 @@ TEST(Opened, IsAPartThatLostEverything) {
   EXPECT_EQ(opened_of(kFacetsOfBox, 0), 1u);
 }
 
+// Two equal open parts become one sheet, which is as open as they were.
+TEST(Opened, IsNoPartThatWasOpenAlreadyAndCoincidesWithAnother) {
+  Surface given;
+  small::add_triangle(given, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  small::add_triangle(given, {0, 0, 0}, {0, 1, 0}, {1, 0, 0});
+  const State before = state_of(given.view());
+  State after = before;
+  after.facets.resize(1);
+  after.facet_parents = {};
+  after.facet_parents.add(std::vector<Index>{0, 1});
+  EXPECT_EQ(opened_part(before, after, std::vector<Index>{0, 1}), no_index);
+}
+
 }  // namespace
 }  // namespace holdfast::repairing::opened_test

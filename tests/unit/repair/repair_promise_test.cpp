@@ -79,6 +79,33 @@ void add_open_box(Surface& surface, const Point& low, const Point& high) {
   surface.facets.erase(side, side + 2);
 }
 
+/// Each facet with corners of its own, `noise` from where they were.
+Surface in_pieces(const Surface& whole, double noise) {
+  Surface pieces;
+  for (const Triangle& t : whole.facets) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      Point p = whole.vertices[t[k]];
+      p[k] += noise;
+      pieces.vertices.push_back(p);
+    }
+    const auto n = static_cast<Index>(pieces.vertices.size());
+    pieces.facets.push_back({n - 3, n - 2, n - 1});
+  }
+  return pieces;
+}
+
+// Facets of a body whose vertices do not coincide are components of one facet each, which enclose nothing.
+TEST(RepairPromise, AUnionKeepsWhatOnlyAWeldCloses) {
+  const Surface box = small::box({0, 0, 0}, {1, 1, 1});
+  RepairOptions options;
+  options.unite = true;
+  options.weld = 1e-6;
+  const RepairResult repaired = repair(in_pieces(box, 1e-9), options);
+  ASSERT_EQ(repaired.outcome, Outcome::done);
+  EXPECT_EQ(repaired.surface.facets.size(), box.facets.size());
+  EXPECT_TRUE(repaired.dropped.empty());
+}
+
 // A union drops fillings, or a part of one, and renumbers those after them.
 TEST(RepairPromise, FillingsLeftByAUnionHaveCorrectNumbers) {
   RepairOptions options;
