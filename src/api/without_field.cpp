@@ -41,9 +41,13 @@ bool WithoutField::is_asked_for(const Options& options) {
 
 WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
                            double elements_asked_for)
-    : attempt_(attempt), first_free_(box.first_free), asked_for_(elements_asked_for) {
+    : attempt_(attempt),
+      first_free_(box.first_free),
+      asked_for_(elements_asked_for),
+      to_be_left_(elements_asked_for) {
   const std::vector<Tet> tets = division.tets(box.mesh);
   if (tets.size() > kMostCompared) return;
+  elements_ = tets.size();
   if (asked_for_ > kManyTimes * static_cast<double>(tets.size())) return;
   mesh_ = box.mesh;
   division_ = division;
