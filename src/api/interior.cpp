@@ -68,9 +68,9 @@ bool asks_for_most(const WithoutField& without) { return without.elements_asked_
 // If the user limits sizes, a removed element may cost more, and the elements may grow only to so many times
 // those that removal leaves even where the mesh falls behind the one without field points.
 constexpr double kMostCostWhereLimited = 0.2, kMostTimesThoseLeft = 1.15;
-// The finer the size, the smaller the share of bad elements. So what facets force is measured by the elements
-// without field points.
-constexpr double kManyBadOfThoseWithout = 0.05;
+// Points are removed in a mesh without a comparison, too, if a larger share of the elements is bad. Smooth
+// surfaces have 0.012 at most.
+constexpr double kManyBadWhereLimited = 0.03;
 
 double growth_to(double most, double elements) { return std::max(0.0, most / elements - 1); }
 
@@ -91,7 +91,7 @@ Extent extent_of_fast(const Attempt& attempt, Field& field, double elements) {
   const double left = elements_left_of(without);
   if (may_remove && (extent.is_brief || without.elements_to_be_left() < without.elements_asked_for())) {
     extent.least_part = left / elements;
-    extent.part_of_bad = kManyBadOfThoseWithout * static_cast<double>(without.elements()) / elements;
+    extent.part_of_bad = kManyBadWhereLimited;
   }
   if (field.is_limited()) {
     extent.most_cost = kMostCostWhereLimited;

@@ -21,7 +21,7 @@ class WithoutField {
 
   /// Whether there is a mesh to compare with.
   [[nodiscard]] bool is_given() const { return before_.elements() > 0; }
-  /// Known without a mesh to compare with, but 0 if it would be very large.
+  /// Known even without a mesh to compare with, unless it is very large or hardly matters.
   [[nodiscard]] std::size_t elements() const { return elements_; }
   /// The number of regular elements of the requested sizes.
   [[nodiscard]] double elements_asked_for() const { return asked_for_; }
