@@ -9,7 +9,7 @@ namespace holdfast {
 namespace {
 
 // Shares of the number of regular elements.
-constexpr double kEnough = 0.65, kNearlyEnough = 0.58, kMany = 1.1;
+constexpr double kEnough = 0.65, kMany = 1.1;
 constexpr double kOfUniform = 0.8;
 constexpr double kLeastFactor = 0.5;
 constexpr double kLeastScale = 0.25;  // where facets may need half as much

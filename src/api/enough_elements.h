@@ -11,6 +11,10 @@
 
 namespace holdfast {
 
+/// The part of regular elements that is nearly enough: no smaller size is tried, and as many remain when
+/// points that do not pay are removed.
+inline constexpr double kNearlyEnough = 0.58;
+
 /// Whether the numbers of elements by region may be too small. `asked` is the result of `regular_elements`.
 [[nodiscard]] bool are_too_few_elements(std::span<const double> elements, std::span<const double> asked);
 

@@ -103,6 +103,18 @@ void note_smaller_sizes(const SizeFunction& sizes, std::span<const double> facto
   }
 }
 
+// Removal must not undo what smaller sizes have made. If only some regions have limits, points might be
+// removed in the others instead.
+double elements_to_be_left(std::span<const double> asked, std::span<const double> factors, const Kept& kept) {
+  double elements = 0;
+  bool are_all_limited = true;
+  for (std::size_t r = 0; r < asked.size(); ++r) {
+    elements += (factors[r] < 1 ? 1 : kNearlyEnough) * asked[r];
+    are_all_limited &= !kept.region[r] || asked[r] > 0;
+  }
+  return are_all_limited ? elements : std::accumulate(asked.begin(), asked.end(), 0.0);
+}
+
 // Returns whether it stopped early.
 bool add_points(const Attempt& attempt, Field& field) {
   FieldPoints added =
@@ -130,14 +142,16 @@ bool add_enough_points(const Attempt& attempt, BoxMesh& box, Division& division,
   const std::vector<double> asked = regular_elements(field.volume());
   field.without = std::make_unique<WithoutField>(attempt, box, division,
                                                  std::accumulate(asked.begin(), asked.end(), 0.0));
+  SizesForEnough search(asked);
+  field.without->leave(elements_to_be_left(asked, search.factors(), division.kept));
   if (!field.size_function().has_limit() || !are_too_few_elements(elements_by_region(field.volume()), asked))
     return add_points(attempt, field);
   const Unfilled unfilled{box, division};
   const SizeFunction sizes = field.size_function();
-  SizesForEnough search(asked);
   for (;;) {
     const bool stopped_early = add_points(attempt, field);
     if (!search.goes_on(elements_made(field))) {
+      field.without->leave(elements_to_be_left(asked, search.factors(), division.kept));
       note_smaller_sizes(sizes, search.factors(), division.kept, box.scale, report);
       return stopped_early;
     }

@@ -55,14 +55,24 @@ constexpr std::array<double, 2> kNoProgress{kCommonWork, kCommonWork};
 
 // If facets force most bad elements, more elements hardly help; other meshers use about as many as the volume
 // takes without field points. Points are removed until kTimesThoseWithout times that many elements are left,
-// or as many as the user's sizes ask for. Points that pay are added again, up to that number.
+// or nearly as many as the user's sizes ask for. Points that pay are added again, up to that number.
 constexpr double kTimesThoseWithout = 1.25;
+double many_of(const WithoutField& without) {
+  return kTimesThoseWithout * static_cast<double>(without.elements());
+}
 double elements_left_of(const WithoutField& without) {
-  return std::max(kTimesThoseWithout * static_cast<double>(without.elements()), without.elements_asked_for());
+  return std::max(many_of(without), without.elements_to_be_left());
 }
-bool asks_for_most(const WithoutField& without) {
-  return without.elements_asked_for() == elements_left_of(without);
-}
+bool asks_for_most(const WithoutField& without) { return without.elements_asked_for() >= many_of(without); }
+
+// If the user limits sizes, a removed element may cost more, and the elements may grow only to so many times
+// those that removal leaves even where the mesh falls behind the one without field points.
+constexpr double kMostCostWhereLimited = 0.2, kMostTimesThoseLeft = 1.15;
+// Points are removed in a mesh without a comparison, too, if a larger share of the elements is bad. Smooth
+// surfaces have 0.012 at most.
+constexpr double kManyBadWhereLimited = 0.03;
+
+double growth_to(double most, double elements) { return std::max(0.0, most / elements - 1); }
 
 double elements_of(const Report::Shape& shape) {
   return static_cast<double>(std::accumulate(shape.quality.begin(), shape.quality.end(), std::size_t{0}));
@@ -72,10 +82,21 @@ double elements_of(const Report::Shape& shape) {
 // sizes ask for more elements than that mesh has, and no more were made, there is nothing to compare.
 Extent extent_of_fast(const Attempt& attempt, Field& field, double elements) {
   Extent extent = Effort::fast;
-  if (!field.without || !field.without->is_given()) return extent;
+  if (!field.without || field.without->elements() == 0) return extent;
+  const WithoutField& without = *field.without;
   const Sizes& asked = *attempt.options.sizes;
-  if (asked.grow && !asked.gradation) extent.least_part = elements_left_of(*field.without) / elements;
-  extent.is_brief = extent.least_part < 1 || !asks_for_most(*field.without);
+  const bool may_remove = asked.grow && !asked.gradation;
+  const bool are_too_many = may_remove && elements > without.elements_asked_for();
+  extent.is_brief = without.is_given() && (are_too_many || !asks_for_most(without));
+  const double left = elements_left_of(without);
+  if (may_remove && (extent.is_brief || without.elements_to_be_left() < without.elements_asked_for())) {
+    extent.least_part = left / elements;
+    extent.part_of_bad = kManyBadWhereLimited;
+  }
+  if (field.is_limited()) {
+    extent.most_cost = kMostCostWhereLimited;
+    if (extent.is_brief) extent.most_growth = growth_to(kMostTimesThoseLeft * left, elements);
+  }
   if (!extent.is_brief) field.without.reset();
   return extent;
 }
@@ -123,8 +144,8 @@ std::optional<Begun> begin_with_few_points(const Attempt& attempt, Field& field,
     return field.without->is_better_somewhere(now);
   };
   Extent few = Effort::fast;
-  few.most_growth = std::max(
-      0.0, kTimesThoseLeft * elements_left_of(*field.without) / static_cast<double>(now.elements()) - 1);
+  few.most_growth =
+      growth_to(kTimesThoseLeft * elements_left_of(*field.without), static_cast<double>(now.elements()));
   note(improve_in_parts(field.volume(), {}, few, attempt.threads, attempt.monitor), report);
   if (!is_behind()) return Begun{false, now};
   if (!field.without->is_within_reach(now)) return std::nullopt;
@@ -149,7 +170,11 @@ Begun keep_what_pays(const Attempt& attempt, BoxMesh& box, Division& division, F
   if (was_brief) {
     if (const std::optional<Begun> begun = begin_with_few_points(attempt, field, now, report.field))
       return *begun;
-    note(improve_in_parts(field.volume(), {}, Effort::fast, attempt.threads, attempt.monitor), report.field);
+    Extent complete = Effort::fast;
+    if (field.is_limited())
+      complete.most_growth =
+          growth_to(kMostTimesThoseLeft * elements_left_of(without), static_cast<double>(now.elements()));
+    note(improve_in_parts(field.volume(), {}, complete, attempt.threads, attempt.monitor), report.field);
     now = figures_of(field.volume(), attempt.threads);
     if (!without.is_better_somewhere(now)) return {false, now};
   }
@@ -180,7 +205,7 @@ Extent extent_of_good(Field& field, Begun& begun, const Threads& threads) {
   const auto below_30_deg = static_cast<double>(begun.figures->below_30_deg());
   extent.lowers_shares = begun.was_brief || below_30_deg > kManySmall * elements;
   if (begun.was_brief || field.is_limited())
-    extent.most_growth = std::max(0.0, elements_left_of(*field.without) / elements - 1);
+    extent.most_growth = growth_to(elements_left_of(*field.without), elements);
   return extent;
 }
 
@@ -200,7 +225,8 @@ void improve_with_field(const Attempt& attempt, BoxMesh& box, Division& division
     begun = keep_what_pays(attempt, box, division, field, begun.was_brief, report);
     field.worst_without = field.without->worst_quality();
   }
-  const Extent extent = extent_of_good(field, begun, threads);
+  Extent extent = extent_of_good(field, begun, threads);
+  if (common.was_thinned) extent.most_growth = 0;
   field.without.reset();
   const Effort effort = attempt.options.effort;
   constexpr double kUpToGood = 0.75;  // share of progress

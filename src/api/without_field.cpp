@@ -10,8 +10,9 @@ namespace {
 
 // Larger meshes take much memory, and no optimisation makes them good.
 constexpr std::size_t kMostCompared = 300'000;  // tetrahedra
-// If this many times as many elements are asked for, there is hardly anything to thin out.
-constexpr double kManyTimes = 8;
+// If this many times as many elements are asked for, the comparison is of no use, and if as many as the
+// second, there is hardly anything to thin out: the size determines the mesh, not the surface.
+constexpr double kManyTimes = 8, kManyMoreTimes = 32;
 // In meshes above kManyTets the optimisation changes only a small part, so the mean Q does not halve. In
 // smaller ones above kTets it may change much, but not remove such a share of elements below 10 degrees.
 constexpr std::size_t kManyTets = 10'000, kTets = 500;
@@ -41,9 +42,14 @@ bool WithoutField::is_asked_for(const Options& options) {
 
 WithoutField::WithoutField(const Attempt& attempt, const BoxMesh& box, const Division& division,
                            double elements_asked_for)
-    : attempt_(attempt), first_free_(box.first_free), asked_for_(elements_asked_for) {
+    : attempt_(attempt),
+      first_free_(box.first_free),
+      asked_for_(elements_asked_for),
+      to_be_left_(elements_asked_for) {
   const std::vector<Tet> tets = division.tets(box.mesh);
   if (tets.size() > kMostCompared) return;
+  if (asked_for_ > kManyMoreTimes * static_cast<double>(tets.size())) return;
+  elements_ = tets.size();
   if (asked_for_ > kManyTimes * static_cast<double>(tets.size())) return;
   mesh_ = box.mesh;
   division_ = division;

@@ -20,10 +20,14 @@ class WithoutField {
                double elements_asked_for);
 
   /// Whether there is a mesh to compare with.
-  [[nodiscard]] bool is_given() const { return elements() > 0; }
-  [[nodiscard]] std::size_t elements() const { return before_.elements(); }
+  [[nodiscard]] bool is_given() const { return before_.elements() > 0; }
+  /// Known even without a mesh to compare with, unless it is very large or hardly matters.
+  [[nodiscard]] std::size_t elements() const { return elements_; }
   /// The number of regular elements of the requested sizes.
   [[nodiscard]] double elements_asked_for() const { return asked_for_; }
+  /// The part of these that must be left when points that do not pay are removed: all, unless it was set.
+  [[nodiscard]] double elements_to_be_left() const { return to_be_left_; }
+  void leave(double elements) { to_be_left_ = elements; }
   /// Whether some figure of the mesh with field points is worse than this mesh's. The first call optimises
   /// this mesh, unless its figures are certain to stay worse.
   [[nodiscard]] bool is_better_somewhere(const Figures& with_field);
@@ -39,7 +43,8 @@ class WithoutField {
   TetMesh mesh_;
   Division division_;
   Vertex first_free_ = 0;
-  double asked_for_;
+  double asked_for_, to_be_left_;
+  std::size_t elements_ = 0;
   Figures before_;                    // before the optimisation
   std::optional<Figures> optimised_;  // after the optimisation
 };

@@ -31,11 +31,14 @@ class Improver {
 
   /// From now on, no figure may become worse.
   void keep(const Figures& figures) { volume_.keep(figures); }
-  /// From now on, many bad elements may be left; and points are removed where that costs little, until only
-  /// this part of the present tetrahedra is left.
-  void be_brief(double least_part) {
-    is_brief_ = true;
+  /// From now on, many bad elements may be left.
+  void be_brief() { is_brief_ = true; }
+  /// Points will be removed where that costs little, until only this part of the present tetrahedra is left;
+  /// unless it is brief, only if more than the other part is bad.
+  void thin_out(double least_part, double most_cost, double part_of_bad) {
     least_tets_ = thinner_.tets_where_left(least_part);
+    most_cost_ = most_cost;
+    part_of_bad_ = part_of_bad;
   }
   /// From now on, points are added only while the number of new elements is below this part of the present
   /// ones.
@@ -57,11 +60,14 @@ class Improver {
       swap_pass();
       smooth_pass();
     }
-    stats_.was_brief = is_brief_ && share_of_bad() > tuning::kBrief.many_bad;
-    if (stats_.was_brief)
+    const double bad = share_of_bad();
+    stats_.was_brief = is_brief_ && bad > tuning::kBrief.many_bad;
+    if (stats_.was_brief) {
       work_briefly();
-    else
+    } else {
       work_in_rounds(steps);
+      if (!is_brief_ && bad > part_of_bad_) stats_.was_thinned = thin();
+    }
     for (Tet t = 0; t < mesh_.slot_count(); ++t)
       if (is_worse(t, stats_.worst)) stats_.worst = volume_.energy(t);
     return stats_;
@@ -103,14 +109,20 @@ class Improver {
   // in figures and on the very worst.
   void work_briefly() {
     const tuning::Brief& brief = tuning::kBrief;
-    if (const std::size_t gone = thinner_.run(least_tets_, brief.most_cost); gone > 0) {
-      stats_.contracted += gone;
-      swap_pass();
-      smooth_pass();
-    }
+    thin();
     volume_.touch_all();
     work_on_single_ones(patient_aim(), brief.least_patient_work + brief.patient_work_per_tet * tets(),
                         First::the_worst, Patience::all_ways);
+  }
+
+  // Returns whether any points are removed.
+  bool thin() {
+    const std::size_t gone = thinner_.run(least_tets_, most_cost_);
+    if (gone == 0) return false;
+    stats_.contracted += gone;
+    swap_pass();
+    smooth_pass();
+    return true;
   }
 
   [[nodiscard]] int most_passes() const {
@@ -244,7 +256,8 @@ class Improver {
   EnergyWays ways_;
   Thinner thinner_;
   const std::size_t most_inserted_;
-  double least_tets_ = 0, most_tets_ = std::numeric_limits<double>::infinity(), for_the_worst_ = 0;
+  double least_tets_ = 0, most_cost_ = 0, part_of_bad_ = 1;
+  double most_tets_ = std::numeric_limits<double>::infinity(), for_the_worst_ = 0;
   std::array<double, 2> stage_{}, work_{0, 1};
   bool is_brief_ = false;
   ImproveStats stats_;
@@ -255,7 +268,9 @@ class Improver {
 ImproveStats improve(const VolumeData& volume, Extent extent, Monitor& monitor,
                      std::span<const std::uint8_t> spared, std::span<const std::uint8_t> fresh) {
   Improver improver(volume, tuning::passes_of(extent.effort), spared, fresh, monitor);
-  if (extent.is_brief) improver.be_brief(extent.least_part);
+  if (extent.is_brief) improver.be_brief();
+  if (extent.is_brief || extent.least_part < 1)
+    improver.thin_out(extent.least_part, extent.most_cost, extent.part_of_bad);
   if (extent.most_growth < std::numeric_limits<double>::infinity()) improver.grow_at_most(extent.most_growth);
   return improver.run();
 }

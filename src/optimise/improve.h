@@ -11,6 +11,7 @@
 #include "holdfast/holdfast.h"
 #include "mesh/monitor.h"
 #include "optimise/figures.h"
+#include "optimise/tuning.h"
 #include "refine/volume_data.h"
 
 namespace holdfast {
@@ -24,8 +25,11 @@ struct Extent {
   /// If many elements are bad after a pass, most are left as they are: for a result that is compared with
   /// another, and is improved further if it is worse.
   bool is_brief;
-  /// If brief: points are removed until this part of the elements is left, as long as that costs little.
-  double least_part = 1;
+  /// Points are removed until this part of the elements is left, as long as that costs little: at most so
+  /// much for each removed element (kWeightBelow).
+  double least_part = 1, most_cost = tuning::kBrief.most_cost;
+  /// If not brief: points are removed only if more than this part of the elements is bad.
+  double part_of_bad = 1;
   /// For further improvement: facets force so many small angles that the shares of elements with small angles
   /// are to be reduced.
   bool lowers_shares = false;
@@ -37,8 +41,9 @@ struct ImproveStats {
   std::size_t moved = 0, swapped = 0, contracted = 0, inserted = 0;
   std::size_t filled_in = 0;  ///< field points that were missing (improve_parts.h)
   bool filling_stopped_early = false;
-  bool was_brief = false;  ///< whether it was brief, as `is_brief` allows
-  double worst = 0;        ///< the worst energy (energy.h) of elements that are not spared
+  bool was_brief = false;    ///< whether it was brief, as `is_brief` allows
+  bool was_thinned = false;  ///< whether it was not brief, and points were removed in the end
+  double worst = 0;          ///< the worst energy (energy.h) of elements that are not spared
 
   ImproveStats& operator+=(const ImproveStats& other) {
     moved += other.moved;
@@ -48,6 +53,7 @@ struct ImproveStats {
     filled_in += other.filled_in;
     filling_stopped_early |= other.filling_stopped_early;
     was_brief |= other.was_brief;
+    was_thinned |= other.was_thinned;
     worst = std::max(worst, other.worst);
     return *this;
   }

@@ -529,6 +529,15 @@ class Examples(CliTest):
         self.assertAlmostEqual(count[("--size", "1000")] / count[()], 1, delta=0.03)
         self.assertGreater(count[("--size", "3")], 2 * count[()])
 
+    def test_a_size_has_nearly_the_elements_that_it_asks_for_where_needles_make_more_useless(self):
+        self.make("make_part.py", "part.stl")
+        size, volume = 4, 274124
+        self.run_program("mesh", "part.stl", "-o", "a.vtu", "-q", "--report", "r.json", "--size", str(size))
+        count = json.loads((self.folder / "r.json").read_text())["mesh"]["tetrahedra"]
+        regular = 6 * 2 ** 0.5 * volume / size ** 3
+        self.assertGreater(count, 0.55 * regular)
+        self.assertLess(count, 0.8 * regular)
+
     def test_schonhardts_prism_at_many_twists(self):
         for twist in (1e-3, 1, 10, 20, 30, 40, 50, 59, 59.9):
             self.make("make_hard.py", "schonhardt", f"twist{twist}.off", "--twist", twist)

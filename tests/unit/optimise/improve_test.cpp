@@ -204,24 +204,52 @@ TEST(Improve, IsBriefWhereManyElementsAreBadAndOnlyIfItMay) {
   EXPECT_LT(brief.inserted, whole.inserted);
 }
 
+struct Thinned {
+  ImproveStats stats;
+  double tets = 0;
+};
+
+// Half of the vertices of a random mesh are free.
+Thinned thinned(const Extent& extent) {
+  TetMesh mesh = random_mesh(2000, 5);
+  std::vector<RegionId> region_of(mesh.slot_count(), 0);
+  const std::vector<bool> kept{true};
+  std::vector<double> sizes(mesh.vertex_count(), 1);
+  const VolumeData volume{mesh, region_of, sizes, kept, 1000};
+  const Options options;
+  Monitor monitor(options);
+  const ImproveStats stats = improve(volume, extent, monitor);
+  EXPECT_EQ(find_fault(mesh), "");
+  return {stats, static_cast<double>(mesh.tet_count())};
+}
+
 // If facets force much, so that the pass is brief, points are removed again: the free ones.
 TEST(Improve, ThinsOutWhatIsBrief) {
   const auto tets_left = [](double least_part) {
-    TetMesh mesh = random_mesh(2000, 5);
-    std::vector<RegionId> region_of(mesh.slot_count(), 0);
-    const std::vector<bool> kept{true};
-    std::vector<double> sizes(mesh.vertex_count(), 1);
-    const VolumeData volume{mesh, region_of, sizes, kept, 1000};
-    const Options options;
-    Monitor monitor(options);
     Extent extent{Effort::fast, true};
     extent.least_part = least_part;
-    const ImproveStats stats = improve(volume, extent, monitor);
-    EXPECT_TRUE(stats.was_brief);
-    EXPECT_EQ(find_fault(mesh), "");
-    return mesh.tet_count();
+    const Thinned made = thinned(extent);
+    EXPECT_TRUE(made.stats.was_brief);
+    EXPECT_FALSE(made.stats.was_thinned);
+    return made.tets;
   };
-  EXPECT_LT(tets_left(0.5), 0.95 * static_cast<double>(tets_left(1)));
+  EXPECT_LT(tets_left(0.5), 0.95 * tets_left(1));
+}
+
+// If it is not brief, points are removed in the end, as many as the allowed cost permits, if much is bad.
+TEST(Improve, ThinsOutInTheEndWhereMuchIsBad) {
+  const auto made = [](double part_of_bad, double most_cost) {
+    Extent extent = Effort::fast;
+    extent.least_part = 0.5;
+    extent.part_of_bad = part_of_bad;
+    extent.most_cost = most_cost;
+    return thinned(extent);
+  };
+  const Thinned much_is_bad = made(0.01, 0.1), little_is_bad = made(0.9, 0.1);
+  EXPECT_TRUE(much_is_bad.stats.was_thinned);
+  EXPECT_FALSE(little_is_bad.stats.was_thinned);
+  EXPECT_LT(much_is_bad.tets, 0.95 * little_is_bad.tets);
+  EXPECT_LT(made(0.01, 0.5).tets, much_is_bad.tets);
 }
 
 // Unlimited points are added without end if all vertices are fixed.
