@@ -47,7 +47,7 @@ inline constexpr double kMostAtCuts = 0.25;  ///< share of tetrahedra with a ver
 inline constexpr double kMostAtFirstCuts = 0.8;  ///< the same before there are points inside
 /// Radii of triangles of a plane that are refined, in sizes; 0.58 is regular.
 inline constexpr double kLargestOnCut = 0.9, kHugeOnCut = 2;
-inline constexpr double kMostHugeOnCuts = 0.5;  ///< share of the volume at cuts: more is not cut
+inline constexpr double kMostHugeOnCuts = 0.7;  ///< share of the volume at cuts: more is not cut
 inline constexpr double kWorkOnCuts = 0.1;      ///< share of the stage's work, for its progress
 
 // Room for what is expected.
