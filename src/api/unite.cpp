@@ -10,10 +10,12 @@
 #include <array>
 #include <compare>
 #include <map>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include "api/turned.h"
 #include "mesh/disjoint_sets.h"
+#include "mesh/undoable_sets.h"
 #include "numbers/sorted.h"
 #include "surface/places.h"
 #include "surface/space.h"
@@ -45,12 +47,10 @@ struct RegionPair {
   bool operator==(const RegionPair&) const = default;
 };
 
-/// The regions that a component keeps. `airs` are pairs of regions separated by a facet of another component.
-std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<RegionPair>& walls,
-                                      const std::vector<RegionPair>& airs) {
-  DisjointSets sets(regions);
-  for (const RegionPair& air : airs) sets.unite(air.front, air.back);
-  std::vector<std::optional<int>> winding(regions);
+/// Adds to `material` the regions that a component keeps. `sets` joins regions that only other components
+/// separate.
+void add_material_of(const std::vector<RegionPair>& walls, const UndoableSets& sets,
+                     std::vector<std::uint8_t>& material) {
   std::map<Index, std::vector<std::pair<Index, int>>> steps;
   for (const RegionPair& wall : walls) {
     const Index front = sets.root(wall.front), back = sets.root(wall.back);
@@ -58,28 +58,25 @@ std::vector<std::uint8_t> material_of(std::size_t regions, const std::vector<Reg
     steps[front].emplace_back(back, 1);  // the inside is behind a facet that faces outwards
     steps[back].emplace_back(front, -1);
   }
+  const Index outside = sets.root(0);
+  std::map<Index, int> winding{{outside, 0}};
   bool consistent = true;
-  std::vector<Index> open{sets.root(0)};
-  winding[open[0]] = 0;
+  std::vector<Index> open{outside};
   while (!open.empty()) {
     const Index region = open.back();
     open.pop_back();
     for (const auto& [next, step] : steps[region]) {
-      const int expected = *winding[region] + step;
-      if (!winding[next]) {
-        winding[next] = expected;
+      const int expected = winding.at(region) + step;
+      const auto [at, is_new] = winding.try_emplace(next, expected);
+      if (is_new)
         open.push_back(next);
-      } else if (*winding[next] != expected) {
+      else if (at->second != expected)
         consistent = false;
-      }
     }
   }
-  std::vector<std::uint8_t> material(regions, 0);
-  for (Index r = 0; r < regions; ++r) {
-    const Index root = sets.root(r);
-    material[r] = consistent ? winding[root].value_or(0) != 0 : root != sets.root(0);
-  }
-  return material;
+  for (const auto& [region, times] : winding)
+    if (consistent ? times != 0 : region != outside)
+      sets.for_each_member(region, [&](Index r) { material[r] = 1; });
 }
 
 void keep_only(repairing::State& state, repairing::Holes& holes, const std::vector<std::uint8_t>& keep) {
@@ -98,6 +95,58 @@ void keep_only(repairing::State& state, repairing::Holes& holes, const std::vect
   repairing::renumber(holes, state, number, repairing::drop_unused(state));
 }
 
+/// By two regions: the components to which every facet between them belongs, ascending.
+using Common = std::map<RegionPair, std::vector<Index>>;
+
+/// For each component, the regions joined that are not separated by this component alone. Two components have
+/// nearly all joins in common, so they are divided into halves again and again: what no component of a half
+/// separates alone is joined for all of it.
+class WithoutEach {
+ public:
+  WithoutEach(Index regions, std::size_t components, const Common& common_to)
+      : sets_(regions), alone_(components) {
+    for (const auto& wall : common_to) {
+      if (wall.second.empty()) sets_.unite(wall.first.front, wall.first.back);
+      for (const Index component : wall.second) alone_[component].push_back(&wall);
+    }
+  }
+
+  /// Calls f(component, sets) for each component.
+  template <class F>
+  void visit(const F& f) {
+    if (!alone_.empty()) visit({0, static_cast<Index>(alone_.size())}, f);
+  }
+
+ private:
+  struct Range {
+    Index first, last;
+  };
+
+  template <class F>
+  void visit(Range range, const F& f) {
+    if (range.last - range.first == 1) return f(range.first, sets_);
+    const Index middle = range.first + (range.last - range.first) / 2;
+    const Range low{range.first, middle}, high{middle, range.last};
+    for (const auto& [half, other] : {std::pair(low, high), std::pair(high, low)}) {
+      const std::size_t mark = sets_.mark();
+      for (Index component = other.first; component < other.last; ++component) join_alone(component, half);
+      visit(half, f);
+      sets_.undo_to(mark);
+    }
+  }
+
+  /// Joins what this component separates alone, unless a component of `half` does, too.
+  void join_alone(Index component, const Range& half) {
+    for (const Common::value_type* wall : alone_[component]) {
+      const auto at = std::lower_bound(wall->second.begin(), wall->second.end(), half.first);
+      if (at == wall->second.end() || *at >= half.last) sets_.unite(wall->first.front, wall->first.back);
+    }
+  }
+
+  UndoableSets sets_;
+  std::vector<std::vector<const Common::value_type*>> alone_;  // by component
+};
+
 /// What the facets of each component separate.
 class ComponentWalls {
  public:
@@ -110,16 +159,13 @@ class ComponentWalls {
 
   /// The regions that at least one component keeps.
   [[nodiscard]] std::vector<std::uint8_t> material(const Step& step) {
+    for (std::vector<RegionPair>& walls : walls_) sort_unique(walls);
     std::vector<std::uint8_t> material(division_.regions, 0);
-    for (auto& [component, walls] : walls_) {
+    WithoutEach without(division_.regions, walls_.size(), common_to_);
+    without.visit([&](std::size_t component, const UndoableSets& sets) {
       step(0.9);
-      sort_unique(walls);
-      std::vector<RegionPair> airs;
-      for (const auto& [pair, common] : common_to_)
-        if (!std::binary_search(common.begin(), common.end(), component)) airs.push_back(pair);
-      const std::vector<std::uint8_t> own = material_of(division_.regions, walls, airs);
-      for (std::size_t r = 0; r < material.size(); ++r) material[r] = material[r] | own[r];
-    }
+      add_material_of(walls_[component], sets, material);
+    });
     return material;
   }
 
@@ -160,8 +206,20 @@ class ComponentWalls {
     DisjointSets sets(input_.vertices.size());
     for (std::size_t i = 1; i < borders.size(); ++i)
       if (borders[i].side == borders[i - 1].side) sets.unite(borders[i].component, borders[i - 1].component);
-    for (Index& component : component_) component = sets.root(component);
-    for (Index& component : component_at_) component = sets.root(component);
+    number_components(sets);
+  }
+
+  /// Components become 0, 1, ...
+  void number_components(DisjointSets& sets) {
+    std::vector<Index> number(input_.vertices.size(), no_index);
+    Index count = 0;
+    for (Index& component : component_) {
+      Index& own = number[sets.root(component)];
+      if (own == no_index) own = count++;
+      component = own;
+    }
+    for (Index& component : component_at_) component = number[sets.root(component)];
+    walls_.resize(count);
   }
 
   void add_facet(std::size_t f) {
@@ -188,11 +246,10 @@ class ComponentWalls {
   const Complex& input_;
   const repairing::State& state_;
   const DividedSpace& division_;
-  std::vector<Index> component_;                    // by facet of the input
-  std::vector<Index> component_at_;                 // by vertex of the arrangement
-  std::map<Index, std::vector<RegionPair>> walls_;  // by component
-  // By two regions: the components to which every facet between them belongs.
-  std::map<RegionPair, std::vector<Index>> common_to_;
+  std::vector<Index> component_;                // by facet of the input
+  std::vector<Index> component_at_;             // by vertex of the arrangement
+  std::vector<std::vector<RegionPair>> walls_;  // by component
+  Common common_to_;
 };
 
 }  // namespace

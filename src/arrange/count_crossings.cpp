@@ -49,12 +49,17 @@ class Counting {
     }
     constexpr std::size_t kLooks = 64;  // for each crossing: as many take a tenth of the time to make it
     std::size_t looks = 0;
-    // Some crossings may be at one place.
-    const std::size_t most_found = enough_ + enough_ / 8;
+    // Where three planes meet in a point, each pair of their lines crosses there.
+    std::size_t counted_next = enough_ + enough_ / 8;
+    const auto are_enough = [&] {
+      if (found_.size() < counted_next) return false;
+      counted_next = 2 * found_.size();
+      return apart() >= enough_;
+    };
     AabbTree(boxes).for_each_overlap(
         [&](Index i, Index j) {
           cross(pieces_[i], pieces_[j]);
-          return ++looks < kLooks * (pieces_.size() + found_.size()) && found_.size() < most_found;
+          return ++looks < kLooks * (pieces_.size() + found_.size()) && !are_enough();
         },
         [](Index, Index) { return false; }, [](double) {});
     return apart();

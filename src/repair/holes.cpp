@@ -181,6 +181,26 @@ std::vector<std::vector<Index>> connected_parts(const State& state, std::span<co
   return list;
 }
 
+/// The first border loop of some facets, found among their own vertices: they are few of the surface's.
+Loop border_of(const State& state, std::span<const Index> facets) {
+  std::vector<Index> own;
+  for (const Index f : facets) own.insert(own.end(), state.facets[f].begin(), state.facets[f].end());
+  sort_unique(own);
+  std::vector<Triangle> triangles;
+  triangles.reserve(facets.size());
+  for (const Index f : facets) {
+    Triangle t = state.facets[f];
+    for (Index& v : t) v = static_cast<Index>(std::lower_bound(own.begin(), own.end(), v) - own.begin());
+    triangles.push_back(t);
+  }
+  std::vector<Point> points;
+  points.reserve(own.size());
+  for (const Index v : own) points.push_back(state.vertices[v]);
+  Loop loop = std::move(border_loops(Complex{points, triangles, {}, {}, {}}).at(0));
+  for (Index& v : loop) v = own[v];
+  return loop;
+}
+
 std::vector<Index> numbers_of(std::span<const Index> of, std::span<const Index> number) {
   std::vector<Index> numbers;
   for (const Index i : of)
@@ -218,11 +238,8 @@ void renumber(Holes& holes, const State& state, std::span<const Index> facet_num
       continue;
     }
     for (std::vector<Index>& part : connected_parts(state, kept)) {
-      std::vector<Triangle> triangles;
-      triangles.reserve(part.size());
-      for (const Index f : part) triangles.push_back(state.facets[f]);
-      std::vector<Loop> loops = border_loops(Complex{state.vertices, triangles, {}, {}, {}});
-      left.push_back({std::move(loops.at(0)), std::move(part), is_plane});
+      Loop border = border_of(state, part);
+      left.push_back({std::move(border), std::move(part), is_plane});
     }
   }
   holes.filled = std::move(left);

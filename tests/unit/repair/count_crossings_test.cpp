@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace holdfast::arrange::count_crossings_test {
@@ -26,6 +27,18 @@ TEST(CountCrossings, CountsEachPointOfAGrid) { EXPECT_EQ(count_crossings(grid(20
 TEST(CountCrossings, EndsWhereEnoughAreFound) {
   EXPECT_GE(count_crossings(grid(20), {}, 100), 100u);
   EXPECT_LE(count_crossings(grid(20), {}, 100), 113u);
+}
+
+// With the diagonals six pairs of lines cross in a point, so the first crossings found are few points.
+TEST(CountCrossings, GoesOnWhereSeveralCrossInEachPlace) {
+  std::vector<Piece> pieces = grid(20);
+  for (int k = -18; k < 19; ++k) {
+    const Position low{0.5 + std::max(0, k), 0.5 + std::max(0, -k)};
+    const Position high{20.5 + std::min(0, k), 20.5 + std::min(0, -k)};
+    pieces.push_back({low, high});
+    pieces.push_back({Position{21 - low[0], low[1]}, Position{21 - high[0], high[1]}});
+  }
+  EXPECT_GE(count_crossings(pieces, {}, 380), 380u);
 }
 
 // Ten lines through one point are 45 pairs that cross.

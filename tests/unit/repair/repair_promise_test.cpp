@@ -2,9 +2,14 @@
 // reduced.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "holdfast/check_repair.h"
 #include "holdfast/repair.h"
@@ -139,6 +144,76 @@ TEST(RepairPromise, FillingsLeftByAUnionHaveCorrectNumbers) {
   ASSERT_EQ(united.filled.size(), 1u);
   EXPECT_EQ(united.filled[0].facets.size(), 1u);
   EXPECT_EQ(united.filled[0].border.size(), 3u);
+}
+
+/// Boxes with integer corners between 0 and kCells, every third one inside out.
+constexpr int kCells = 10;
+using Corners = std::array<std::array<int, 3>, 2>;
+
+std::vector<Corners> random_boxes(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<Corners> boxes(count);
+  for (auto& [low, high] : boxes)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = static_cast<int>(random() % (kCells - 1));
+      high[k] = low[k] + 1 + static_cast<int>(random() % std::min<unsigned>(4, kCells - low[k]));
+    }
+  return boxes;
+}
+
+bool is_in_one(const std::vector<Corners>& boxes, const Point& p) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Corners& box) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (p[k] < box[0][k] || p[k] > box[1][k]) return false;
+    return true;
+  });
+}
+
+/// The area of the boundary of the union, by cells.
+int area_of_union(const std::vector<Corners>& boxes) {
+  int area = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (int i = -1; i < kCells; ++i)
+      for (int j = 0; j < kCells; ++j)
+        for (int l = 0; l < kCells; ++l) {
+          Point p{};
+          p[k] = i + 0.5;
+          p[(k + 1) % 3] = j + 0.5;
+          p[(k + 2) % 3] = l + 0.5;
+          const bool here = is_in_one(boxes, p);
+          p[k] += 1;
+          if (is_in_one(boxes, p) != here) ++area;
+        }
+  return area;
+}
+
+TEST(RepairPromise, TheUnionOfManyComponentsIsThatOfTheirInsides) {
+  RepairOptions options;
+  options.unite = true;
+  for (const std::size_t count : {1, 2, 3, 5, 24}) {
+    const std::vector<Corners> boxes = random_boxes(count, static_cast<unsigned>(count));
+    Surface surface;
+    for (std::size_t b = 0; b < count; ++b) {
+      const auto& [low, high] = boxes[b];
+      const std::size_t before = surface.facets.size();
+      small::add_box(surface, {1. * low[0], 1. * low[1], 1. * low[2]},
+                     {1. * high[0], 1. * high[1], 1. * high[2]});
+      if (b % 3 == 2)
+        for (std::size_t f = before; f < surface.facets.size(); ++f)
+          std::swap(surface.facets[f][1], surface.facets[f][2]);
+    }
+    EXPECT_EQ(broken(surface, options), "");
+    const Surface united = repair(surface, options).surface;
+    double area = 0;
+    for (const Triangle& t : united.facets) {
+      const Point &a = united.vertices[t[0]], &b = united.vertices[t[1]], &c = united.vertices[t[2]];
+      for (std::size_t k = 0; k < 3; ++k) {  // all but one of these are 0
+        const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+        area += std::fabs((b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l])) / 2;
+      }
+    }
+    EXPECT_NEAR(area, area_of_union(boxes), 1e-9) << count;
+  }
 }
 
 // Sheets are joined first: their displacement counts in all later attempts from there.
