@@ -115,7 +115,7 @@ void Ladder::try_plans(SidesOf sides) {
   if (!is_plane_ && !starts_welded())
     work_.most = kPlansOfMuchWork * kMuchWork.of(rounded_.state.facets.size());
   if (!is_plane_ && trouble_.size() > kMany && begin_with_twins()) return;
-  begin_flat(kFlatPlans);
+  if (!puts_off_flat_) begin_flat(kFlatPlans);
   const bool may_join = report_.rung == Rung::coarser || (once_cut_ && !has_twins());
   if (!is_plane_ && !is_welded_ && trouble_.size() > kFew && may_join) join_first();
   try_next_plans();
@@ -128,7 +128,10 @@ bool Ladder::begin_with_twins() {
   if (!distance) return false;
   // Joining displaces less than moving input vertices, but is slow if sheets nearly coincide.
   is_welded_ = *distance <= near;
-  if (is_welded_) begin_flat(kWeldedPlans);
+  if (is_welded_) {
+    begin_flat(kWeldedPlans);
+    puts_off_flat_ = trouble_.size() <= kFew;
+  }
   if (is_welded_ || starts_welded()) return false;
   double last = 0;
   for (double gap = kTwinsLastBits * bit; last < gap && gap <= most; gap = std::min(4 * gap, most)) {
@@ -155,9 +158,12 @@ void Ladder::try_next_plans() {
     if (is_plane_ && trouble_.size() > most_in_trouble) break;
     most_in_trouble = std::max(2 * kFew, trouble_.size() / 2);
     if (!is_welded_ && (plan.moves_input || trouble_.size() > kFew)) {
-      begin_flat(kWeldedPlans);
+      begin_flat_late(kWeldedPlans);
       is_welded_ = true;
-      if (best_ && trouble_.size() < best_->trouble.size()) best_.reset();
+    }
+    if (puts_off_flat_ && next_plan_ > 0) {
+      begin_flat_late(kFlatPlans);
+      puts_off_flat_ = false;
     }
     if (!is_done()) cut_late();
     if (is_done()) break;
@@ -329,6 +335,11 @@ void Ladder::begin_flat(std::span<const Plan> plans) {
   if (is_plane_) return;
   for (const Plan& plan : plans)
     if (!is_done()) begin_flat(plan);
+}
+
+void Ladder::begin_flat_late(std::span<const Plan> plans) {
+  begin_flat(plans);
+  if (best_ && trouble_.size() < best_->trouble.size()) best_.reset();
 }
 
 void Ladder::begin_flat(const Plan& plan) {

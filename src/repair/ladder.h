@@ -135,6 +135,8 @@ class Ladder {
   void flatten_again(const Plan& plan);
 
   void begin_flat(std::span<const Plan> plans);
+  /// The same after other plans.
+  void begin_flat_late(std::span<const Plan> plans);
 
   /// Starts again from the given surface and makes coincident sheets one before the first cut, because their
   /// planes would cross in lines all over the sheets. The result is kept if it leaves less in trouble.
@@ -203,6 +205,9 @@ class Ladder {
   bool tries_little_ = false;
   double welded_last_bits_ = 0;
   bool is_welded_ = false;  // kWeldedPlans were tried
+  // They left little in trouble, which the first plan may join in a hundredth of the time that kFlatPlans
+  // take.
+  bool puts_off_flat_ = false;
   // Of kPlans: the next one, and how many to try.
   std::size_t next_plan_ = 0, plans_ = kPlans.size();
   bool has_shared_ = false;
