@@ -151,7 +151,8 @@ void run(const Complex& complex, const RepairOptions& options, PlainMonitor& mon
   const Threads threads = Threads(options.threads).polling([&] { monitor.poll_again(); });
   const Step step = [&](double fraction) { monitor.poll(fraction); };
   repairing::State state = repairing::state_of(complex);
-  const double welded = options.weld > 0 ? repairing::weld(state, options.weld, step) : 0;
+  const double welded =
+      options.weld > 0 ? repairing::weld(state, options.weld, step, repairing::Touching::is_left) : 0;
   repairing::Rounded rounded = round_scaled(complex, std::move(state), options, result, step, threads);
   if (!rounded.is_valid)
     return end(result, Outcome::not_representable,

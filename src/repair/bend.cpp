@@ -3,11 +3,13 @@
 #include "repair/bend.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "exact/predicates.h"
 #include "numbers/sorted.h"
 #include "repair/bent.h"
 #include "repair/derived_facets.h"
@@ -24,6 +26,15 @@ bool has_repeated_corners(const Triangle& t) { return t[0] == t[1] || t[1] == t[
 Triangle with(Index fresh, Index old, Triangle corners) {
   std::replace(corners.begin(), corners.end(), old, fresh);
   return corners;
+}
+
+/// Whether three points lie on a line.
+bool are_aligned(const Point& p, const Point& q, const Point& r) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto flat = [&](const Point& x) { return std::array{x[(k + 1) % 3], x[(k + 2) % 3]}; };
+    if (exact::orient2d(flat(p).data(), flat(q).data(), flat(r).data()) != 0) return false;
+  }
+  return true;
 }
 
 bool holds(const Box& box, const Point& p) {
@@ -221,7 +232,7 @@ class Bending {
           if (v == side[0] || v == side[1] || v == best || !holds(box, at(v))) continue;
           const Nearness near = beside_side(at(v), at(side[0]), at(side[1]));
           if (!(near.distance <= gap_) || !(near.distance < nearest.distance)) continue;
-          if (!has_room(here, v, near.bound())) continue;
+          if (!has_room(here, v, near.bound()) || is_left_on(side, v)) continue;
           nearest = near;
           best = v;
         }
@@ -264,7 +275,7 @@ class Bending {
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
         // All points of a sliver are near its sides, and these are led through nearby vertices.
         if (!(near.distance <= gap_) || near.tilt > gap_) continue;
-        if (!(surface_.facet(f).bent + near.bound() <= room_)) continue;
+        if (!(surface_.facet(f).bent + near.bound() <= room_) || is_left_on({a, b, c}, v)) continue;
         const BentFacet facet = surface_.take(f, near.bound());
         for (std::size_t i = 0; i < 3; ++i) {
           BentFacet part = facet;
@@ -274,6 +285,15 @@ class Bending {
         return;
       }
     }
+  }
+
+  // Exact: see Touching.
+  [[nodiscard]] bool is_left_on(const Side& side, Index v) const {
+    return how_.touching == Touching::is_left && are_aligned(at(side[0]), at(side[1]), at(v));
+  }
+  [[nodiscard]] bool is_left_on(const Triangle& facet, Index v) const {
+    return how_.touching == Touching::is_left &&
+           exact::orient3d(at(facet[0]).data(), at(facet[1]).data(), at(facet[2]).data(), at(v).data()) == 0;
   }
 
   const State& state_;

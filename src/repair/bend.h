@@ -13,6 +13,7 @@ struct Bend {
   double gap = 0;
   double room = 0;  ///< no facet is bent by more than this in all
   std::size_t most_facets = SIZE_MAX;
+  Touching touching = Touching::bends;
 };
 
 /// Leads the sides and facets in trouble through those of `vertices` (ascending) that they pass at most `gap`

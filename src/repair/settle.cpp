@@ -31,7 +31,8 @@ class Settling {
     const double merged = merge_vertices();
     if (how_.passings != Passings::none) add_passings();
     const double room = how_.most > 0 ? how_.most - merged : kMostGapsOfABend * gap_;
-    const double bent = bend(state_, trouble_, vertices_, {gap_, room, how_.most_facets}, work_, step_);
+    const double bent =
+        bend(state_, trouble_, vertices_, {gap_, room, how_.most_facets, how_.touching}, work_, step_);
     drop_unused(state_);
     return merged + bent;
   }

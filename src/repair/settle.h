@@ -44,6 +44,10 @@ enum class Passings {
   all
 };
 
+/// What a vertex does to a side or facet on which it lies exactly. A cut makes it a common vertex, too, but
+/// in all facets of a plane at once, so that they have common triangles there.
+enum class Touching { bends, is_left };
+
 struct Settle {
   double gap = 0;
   double most = 0;           ///< limit of moving and bending in all; 0: only the limit of some gaps
@@ -51,6 +55,7 @@ struct Settle {
   Passings passings = Passings::all;
   /// Ends early with more facets than this.
   std::size_t most_facets = SIZE_MAX;
+  Touching touching = Touching::bends;
 };
 
 /// Round the facets and segments in trouble,

@@ -12,12 +12,12 @@
 
 namespace holdfast::repairing {
 
-double weld(State& state, double tolerance, const Step& step) {
+double weld(State& state, double tolerance, const Step& step, Touching touching) {
   Work work;
-  return weld(state, tolerance, work, step);
+  return weld(state, tolerance, work, step, touching);
 }
 
-double weld(State& state, double tolerance, Work& work, const Step& step) {
+double weld(State& state, double tolerance, Work& work, const Step& step, Touching touching) {
   constexpr double kRoomForRounding = 0x1p-20;  // as a share of the tolerance
   const double gap = tolerance * (1 - kRoomForRounding);
   // If two patches cut the curve between them differently, their sides cross between the vertices. So do the
@@ -26,7 +26,7 @@ double weld(State& state, double tolerance, Work& work, const Step& step) {
   // thinner than the tolerance stays, unless it is so thin that hardly any mesh could be in it.
   const bool is_thin = tolerance <= kThinnest * last_bit(state.vertices);
   const Passings passings = is_thin ? Passings::edges : Passings::bodies;
-  return settle(state, everything(state), {gap, gap, true, passings}, work, step);
+  return settle(state, everything(state), {gap, gap, true, passings, SIZE_MAX, touching}, work, step);
 }
 
 std::optional<double> distance_of_twins(const State& state, const Trouble& trouble, double share,

@@ -14,9 +14,10 @@ inline constexpr double kThinnest = 0x1p6;
 
 /// `RepairOptions::weld`. Returns the largest distance by which anything moved or was bent, rounded up: less
 /// than the tolerance, with room left for rounding where that is possible.
-double weld(State& state, double tolerance, const Step& step);
+double weld(State& state, double tolerance, const Step& step, Touching touching = Touching::bends);
 /// The same, not to the end if the work is spent.
-double weld(State& state, double tolerance, Work& work, const Step& step);
+double weld(State& state, double tolerance, Work& work, const Step& step,
+            Touching touching = Touching::bends);
 
 /// The distance within which more than this share of the input vertices in trouble have another of them at a
 /// different place. Half of them do if a surface is duplicated up to rounding, or if its triangles were
