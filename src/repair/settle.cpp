@@ -86,7 +86,7 @@ class Settling {
                          });
     }
     if (into.empty()) return 0;
-    move_slots(into);
+    if (how_.moves_input) move_slots(into);
     const auto rename = [&](auto& entities, auto&& renamed) {
       for (std::size_t i = 0; i < entities.size(); ++i)
         for (Index& v : entities[i])
@@ -101,8 +101,8 @@ class Settling {
     return most;
   }
 
-  /// An input vertex keeps its slot, which replaces the vertex it was joined with; so do those joined with it
-  /// earlier.
+  /// If input vertices move: one keeps its slot, which replaces the vertex it was joined with; so do those
+  /// joined with it earlier.
   void move_slots(const std::map<Index, Index>& into) {
     std::map<Point, Index> goes;
     for (const auto& [w, v] : into) goes.emplace(at(w), v);

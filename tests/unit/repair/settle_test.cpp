@@ -63,5 +63,22 @@ TEST(Settle, SegmentsAreNotMovedBackAndForth) {
   EXPECT_LT(work.done, 100u * kSegments);
 }
 
+// A new vertex at the place of a vertex of the input becomes another one nearby, and the input's stays.
+TEST(Settle, VerticesOfTheInputStayWhereNewOnesAtTheirPlacesGo) {
+  State state = state_of({{}, {}, {}, {}, {}});
+  const Point other{0, 0, 0}, place{1e-3, 0, 0};
+  state.vertices = {other, {5, 1, 0}, {5, 0, 1}, place, {5, 3, 0}, {5, 0, 3}, place, {-5, 1, 0}, {-5, 0, 1}};
+  state.input_vertices = 6;
+  for (Index f = 0; f < 3; ++f) {
+    state.facets.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+    state.facet_parents.add(std::array{f});
+  }
+  state.known = {1, 1, 0};
+  Work work;
+  settle(state, everything(state), {1e-2, 0, false, Passings::none}, work, [](double) {});
+  EXPECT_EQ(state.vertices[3], place);
+  EXPECT_EQ(state.facets.back()[0], 0u) << "the new vertex has become the other one";
+}
+
 }  // namespace
 }  // namespace holdfast::repairing::settle_test
