@@ -52,7 +52,8 @@ struct RepairOptions : Limits {
   /// Closes holes whose border has at most this many sides, by facets without parents. No value: holes stay.
   std::optional<std::size_t> fill_holes = {};
   /// Drops facets with material on both sides or on neither. Material is what `Keep::automatic` keeps of each
-  /// connected component of the surface by itself.
+  /// connected component of the surface by itself. A component inside another one that faces the other way is
+  /// a cavity of it.
   bool unite = false;
   /// The repair ends with `Outcome::memory_limit` if it needs more points than this: an arrangement can be
   /// quadratic in size.

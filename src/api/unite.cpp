@@ -3,7 +3,8 @@
 // The arrangement divides space into regions, and each facet has one on either side. Components of the input
 // whose borders meet in it are one. For one component, all other facets are air: regions separated only by
 // them are one. The regions that its own facets separate have a winding number if the facets are consistently
-// oriented; otherwise each region is inside or outside.
+// oriented; otherwise each region is inside or outside. A component inside another one that faces the other
+// way is a cavity of it.
 #include "api/unite.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/solids.h"
 #include "api/turned.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/undoable_sets.h"
@@ -36,47 +38,6 @@ std::vector<Index> components_of(const Complex& input) {
   for (std::size_t f = 0; f < component.size(); ++f)
     if (const Index v = input.facets[f][0]; v < input.vertices.size()) component[f] = sets.root(first[v]);
   return component;
-}
-
-/// The regions on both sides of a facet of the arrangement that is part of a component's facet.
-struct RegionPair {
-  Index front, back;
-  bool operator<(const RegionPair& other) const {
-    return std::pair(front, back) < std::pair(other.front, other.back);
-  }
-  bool operator==(const RegionPair&) const = default;
-};
-
-/// Adds to `material` the regions that a component keeps. `sets` joins regions that only other components
-/// separate.
-void add_material_of(const std::vector<RegionPair>& walls, const UndoableSets& sets,
-                     std::vector<std::uint8_t>& material) {
-  std::map<Index, std::vector<std::pair<Index, int>>> steps;
-  for (const RegionPair& wall : walls) {
-    const Index front = sets.root(wall.front), back = sets.root(wall.back);
-    if (front == back) continue;
-    steps[front].emplace_back(back, 1);  // the inside is behind a facet that faces outwards
-    steps[back].emplace_back(front, -1);
-  }
-  const Index outside = sets.root(0);
-  std::map<Index, int> winding{{outside, 0}};
-  bool consistent = true;
-  std::vector<Index> open{outside};
-  while (!open.empty()) {
-    const Index region = open.back();
-    open.pop_back();
-    for (const auto& [next, step] : steps[region]) {
-      const int expected = winding.at(region) + step;
-      const auto [at, is_new] = winding.try_emplace(next, expected);
-      if (is_new)
-        open.push_back(next);
-      else if (at->second != expected)
-        consistent = false;
-    }
-  }
-  for (const auto& [region, times] : winding)
-    if (consistent ? times != 0 : region != outside)
-      sets.for_each_member(region, [&](Index r) { material[r] = 1; });
 }
 
 void keep_only(repairing::State& state, repairing::Holes& holes, const std::vector<std::uint8_t>& keep) {
@@ -160,13 +121,13 @@ class ComponentWalls {
   /// The regions that at least one component keeps.
   [[nodiscard]] std::vector<std::uint8_t> material(const Step& step) {
     for (std::vector<RegionPair>& walls : walls_) sort_unique(walls);
-    std::vector<std::uint8_t> material(division_.regions, 0);
+    std::vector<Solid> solids(walls_.size());
     WithoutEach without(division_.regions, walls_.size(), common_to_);
     without.visit([&](std::size_t component, const UndoableSets& sets) {
       step(0.9);
-      add_material_of(walls_[component], sets, material);
+      solids[component] = solid_of(walls_[component], sets);
     });
-    return material;
+    return material_of(division_.regions, solids, walls_);
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <random>
 #include <string>
 #include <utility>
@@ -146,7 +147,7 @@ TEST(RepairPromise, FillingsLeftByAUnionHaveCorrectNumbers) {
   EXPECT_EQ(united.filled[0].border.size(), 3u);
 }
 
-/// Boxes with integer corners between 0 and kCells, every third one inside out.
+/// Boxes with integer corners between 0 and kCells. Of those below, none lies inside another one.
 constexpr int kCells = 10;
 using Corners = std::array<std::array<int, 3>, 2>;
 
@@ -214,6 +215,40 @@ TEST(RepairPromise, TheUnionOfManyComponentsIsThatOfTheirInsides) {
     }
     EXPECT_NEAR(area, area_of_union(boxes), 1e-9) << count;
   }
+}
+
+/// Boxes one inside the other; the lengths of their sides, negative if the box faces inwards.
+Surface boxes_in_boxes(std::initializer_list<double> lengths) {
+  Surface surface;
+  for (const double length : lengths) {
+    const double half = std::abs(length) / 2;
+    small::add_box(surface, {-half, -half, -half}, {half, half, half}, length > 0);
+  }
+  return surface;
+}
+
+std::size_t facets_united(const Surface& surface) {
+  RepairOptions options;
+  options.unite = true;
+  EXPECT_EQ(broken(surface, options), "");
+  return repair(surface, options).surface.facets.size();
+}
+
+// `Keep::automatic` keeps the same of these surfaces, which are valid.
+TEST(RepairPromise, AUnionKeepsCavities) {
+  EXPECT_EQ(facets_united(boxes_in_boxes({8, -6})), 24u);
+  EXPECT_EQ(facets_united(boxes_in_boxes({-8, 6})), 24u) << "all turned";
+  EXPECT_EQ(facets_united(boxes_in_boxes({-2, 4, -6, 8})), 48u) << "a hollow box in a hollow box";
+  EXPECT_EQ(facets_united(boxes_in_boxes({8, -6, -4})), 36u) << "what is in a cavity is no cavity of it";
+  EXPECT_EQ(facets_united(boxes_in_boxes({8, 6})), 12u) << "no cavity";
+  EXPECT_EQ(facets_united(boxes_in_boxes({8, -6, 10})), 12u) << "filled by another box";
+  Surface crossing = boxes_in_boxes({8, -6}), solid = boxes_in_boxes({8});
+  for (Surface* surface : {&crossing, &solid}) small::add_box(*surface, {2, -1, -1}, {9, 1, 1});
+  EXPECT_GT(facets_united(crossing), facets_united(solid) + 12) << "a bar that ends in the cavity";
+  Surface turned = small::box(), other = turned;
+  small::add_box(turned, {0.5, 0.25, 0.25}, {2, 0.75, 0.75}, false);
+  small::add_box(other, {0.5, 0.25, 0.25}, {2, 0.75, 0.75}, true);
+  EXPECT_EQ(facets_united(turned), facets_united(other)) << "a box that crosses another one is no cavity";
 }
 
 // Sheets are joined first: their displacement counts in all later attempts from there.
