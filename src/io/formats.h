@@ -28,7 +28,7 @@ namespace holdfast::io {
 [[nodiscard]] MeshData read_gts(const Source& source);
 [[nodiscard]] MeshData read_poly(const Source& source);
 [[nodiscard]] MeshData read_smesh(const Source& source);
-/// A .node file: vertices only.
+/// A .node file: its vertices; with .face and .edge if the .ele beside it has no tetrahedra.
 [[nodiscard]] MeshData read_node(const Source& source);
 [[nodiscard]] MeshData read_xyz(const Source& source);
 /// The .node, .ele, .face and .edge files beside the source. The source's own bytes are not used.

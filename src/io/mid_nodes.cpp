@@ -2,6 +2,7 @@
 #include "io/mid_nodes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace holdfast::io {
 namespace {
@@ -40,6 +41,51 @@ bool complete(const MeshData& mesh, const std::vector<bool>& on_edges) {
          mesh.mids.facets.size() == mesh.facets.size() && mesh.mids.segments.size() == mesh.segments.size() &&
          std::all_of(mesh.mids.tetrahedra.begin(), mesh.mids.tetrahedra.end(), all) &&
          std::all_of(mesh.mids.facets.begin(), mesh.mids.facets.end(), all) && all(mesh.mids.segments);
+}
+
+/// The nodes on edges of tetrahedra, by the ends of the edge.
+class NodesOfEdges {
+ public:
+  explicit NodesOfEdges(const MeshData& mesh) {
+    constexpr std::size_t kEnds[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+    nodes_.reserve(6 * mesh.tetrahedra.size());
+    for (std::size_t t = 0; t < mesh.mids.tetrahedra.size(); ++t)
+      for (std::size_t e = 0; e < 6; ++e)
+        nodes_.push_back({ascending(mesh.tetrahedra[t][kEnds[e][0]], mesh.tetrahedra[t][kEnds[e][1]]),
+                          mesh.mids.tetrahedra[t][e]});
+    std::sort(nodes_.begin(), nodes_.end());
+  }
+  [[nodiscard]] Index on(Index a, Index b) const {
+    const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), std::pair(ascending(a, b), Index{0}));
+    return found == nodes_.end() || found->first != ascending(a, b) ? no_entity : found->second;
+  }
+
+ private:
+  static Segment ascending(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+  std::vector<std::pair<Segment, Index>> nodes_;
+};
+
+/// Gives triangles and segments without nodes those of the tetrahedra, where all of these have some: Netgen
+/// writes none for segments.
+void take_from_tetrahedra(MeshData& mesh) {
+  MeshData::FileMids& mids = mesh.mids;
+  if (mids.tetrahedra.empty() || mids.tetrahedra.size() < mesh.tetrahedra.size()) return;
+  mids.facets.resize(mesh.facets.size(), kNoneOfFacet);
+  mids.segments.resize(mesh.segments.size(), no_entity);
+  const auto lacks = [](const auto& of) { return of[0] == no_entity; };
+  if (std::none_of(mids.facets.begin(), mids.facets.end(), lacks) &&
+      std::find(mids.segments.begin(), mids.segments.end(), no_entity) == mids.segments.end())
+    return;
+  const NodesOfEdges nodes(mesh);
+  for (std::size_t f = 0; f < mids.facets.size(); ++f) {
+    const Triangle& facet = mesh.facets[f];
+    if (lacks(mids.facets[f]))
+      mids.facets[f] = {nodes.on(facet[0], facet[1]), nodes.on(facet[1], facet[2]),
+                        nodes.on(facet[0], facet[2])};
+  }
+  for (std::size_t s = 0; s < mids.segments.size(); ++s)
+    if (mids.segments[s] == no_entity) mids.segments[s] = nodes.on(mesh.segments[s][0], mesh.segments[s][1]);
 }
 
 template <typename Entity>
@@ -88,6 +134,7 @@ void settle_mid_nodes(MeshData& mesh, bool keep) {
   if (mesh.mids.tetrahedra.empty() && mesh.mids.facets.empty() && mesh.mids.segments.empty() &&
       mesh.mids.others.empty())
     return;
+  if (keep) take_from_tetrahedra(mesh);
   const std::vector<bool> on_edges = no_corners(mesh);
   keep = keep && complete(mesh, on_edges);
   const std::vector<int> markers = mesh.vertex_markers.take(mesh.vertices.size());

@@ -5,6 +5,8 @@
 // triangles. A facet of several polygons, or with holes, is what they enclose together.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "holdfast/regular_tetrahedron.h"
 #include "io/file_bytes.h"
@@ -172,6 +174,17 @@ class PolyReader {
   std::vector<Index> corners_;
 };
 
+/// Whether the .ele beside the file says that there are no tetrahedra: then .face and .edge are a surface, as
+/// `convert` writes it. Otherwise they belong to a volume.
+bool has_no_tetrahedra(const Source& source) {
+  const std::filesystem::path elements = sibling(source.path, ".ele");
+  std::error_code error;
+  if (!std::filesystem::exists(elements, error)) return false;
+  const FileBytes bytes(elements, source.watch);
+  const std::string_view text = bytes.view();
+  return text.substr(0, text.find_first_of(" \t\r\n")) == "0";
+}
+
 }  // namespace
 
 TetgenNodes read_tetgen_nodes(TextReader& text) {
@@ -225,6 +238,7 @@ MeshData read_poly(const Source& source) { return PolyReader(source, false).read
 MeshData read_smesh(const Source& source) { return PolyReader(source, true).read(); }
 
 MeshData read_node(const Source& source) {
+  if (has_no_tetrahedra(source)) return read_tetgen_volume(source);
   TextReader text(source);
   MeshData mesh;
   TetgenNodes nodes = read_tetgen_nodes(text);

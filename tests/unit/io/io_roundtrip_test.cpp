@@ -125,6 +125,21 @@ TEST(RoundTrip, AVolumeIsASurfaceToo) {
   }
 }
 
+TEST(RoundTrip, SurfaceInNode) {
+  const TemporaryFolder folder;
+  Volume written = sample_volume();
+  written.tetrahedra.clear();
+  written.regions.clear();
+  write_volume(folder / "a.node", written);
+  const Surface read = read_surface(folder / "a.node");
+  EXPECT_EQ(read.vertices, written.vertices);
+  EXPECT_EQ(read.facets, written.facets);
+  EXPECT_EQ(read.facet_markers, written.facet_markers);
+  EXPECT_EQ(read.segments, written.segments);
+  write_volume(folder / "b.node", sample_volume());
+  EXPECT_TRUE(read_surface(folder / "b.node").facets.empty());
+}
+
 TEST(RoundTrip, MismatchedTagsAreTheCallersMistake) {
   const TemporaryFolder folder;
   Volume volume = sample_volume();

@@ -52,8 +52,40 @@ TEST_P(SecondOrderFiles, ComeBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, SecondOrderFiles,
-                         ::testing::Values(".vtu", ".vtk", ".msh", ".mesh", ".meshb", ".node"),
+                         ::testing::Values(".vtu", ".vtk", ".msh", ".mesh", ".meshb", ".node", ".vol"),
                          [](const auto& named) { return std::string(named.param).substr(1); });
+
+/// Reads text as a volume of second order in Medit's format: a tetrahedron with nodes, and triangles and
+/// edges without.
+Volume read_linear_boundary(const std::string& boundary) {
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "linear_boundary.mesh";
+  std::ofstream(path) << "MeshVersionFormatted 2\nDimension 3\nVertices\n11\n"
+                         "0 0 0 0\n2 0 0 0\n0 2 0 0\n0 0 2 0\n"
+                         "1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n0 1 1 0\n5 5 5 0\n"
+                         "TetrahedraP2\n1\n1 2 3 4 5 6 7 8 9 10 1\n"
+                      << boundary << "End\n";
+  Volume volume = read_volume(path);
+  std::filesystem::remove(path);
+  return volume;
+}
+
+TEST(LinearBoundary, HasTheNodesOfTheTetrahedra) {
+  const Volume volume = read_linear_boundary("Triangles\n1\n4 2 1 3\nEdges\n1\n3 4 9\n");
+  ASSERT_EQ(volume.mid_nodes.points.size(), 6u);
+  const auto at = [&](Index node) { return volume.mid_nodes.points[node - volume.vertices.size()]; };
+  ASSERT_EQ(volume.mid_nodes.facets.size(), 1u);
+  EXPECT_EQ(at(volume.mid_nodes.facets[0][0]), (Point{1, 0, 1}));
+  EXPECT_EQ(at(volume.mid_nodes.facets[0][1]), (Point{1, 0, 0}));
+  EXPECT_EQ(at(volume.mid_nodes.facets[0][2]), (Point{0, 0, 1}));
+  ASSERT_EQ(volume.mid_nodes.segments.size(), 1u);
+  EXPECT_EQ(at(volume.mid_nodes.segments[0]), (Point{0, 1, 1}));
+}
+
+TEST(LinearBoundary, OffTheTetrahedraIsOfFirstOrder) {
+  const Volume volume = read_linear_boundary("Edges\n1\n4 11 9\n");
+  EXPECT_TRUE(volume.mid_nodes.points.empty());
+  EXPECT_EQ(volume.vertices.size(), 5u);
+}
 
 /// Reads text as a surface of a format.
 Surface read_text(const std::string& text, const std::string& ending) {
