@@ -97,7 +97,7 @@ def mesh(
         `TetMesh.report["layers"]` counts the points added for it.
     fill
         Add no field points, only the points that the surface forces. `size`, `metric`, `gradation`, `growth`,
-        `max_volume`, `max_ratio` and `layers` then have no meaning.
+        `max_volume`, `max_ratio`, `layers`, `quality` and sizes of regions would then do nothing, and are refused.
     quality
         Effort for the elements with field points: "fast", "good" or "best".
     keep
@@ -166,9 +166,11 @@ def mesh(
     steps = {without} if isinstance(without, str) else set(without)
     if unknown := steps - {"flips", "optimise", "points"}:
         raise ValueError(f"without={sorted(unknown)}: only 'flips', 'optimise' and 'points' can be left out")
-    if fill and any(x is not None for x in (size, metric, max_volume, max_ratio, layers)):
-        raise ValueError("fill=True adds no field points, so that size, metric, max_volume, max_ratio and layers have no meaning; "
-                         "leave out one of them")
+    holes, regions = _listed(holes, "holes"), _listed(regions, "regions")
+    _require_sense(fill, quality, steps, metric, growth, {
+        "size": size is not None, "metric": metric is not None, "gradation": gradation is not None, "growth=False": not growth,
+        "max_volume": max_volume is not None, "max_ratio": max_ratio is not None, "layers": layers is not None,
+        "the size of a region": any(len(r) == 5 and r[4] for r in regions), f"quality={quality!r}": quality != "good"})
     weld = weld_of(repair)
     if weld is None and (most_sides(fill_holes) or union):
         raise ValueError("fill_holes and union do nothing without repair: the surface is meshed as it is")
@@ -191,8 +193,8 @@ def mesh(
         quality=quality,
         keep=keep,
         box_margin=0.1 if box_margin is None else _positive(box_margin, "box_margin"),
-        holes=[_numbers(h, 3, "a hole") for h in _listed(holes, "holes")] + [list(map(float, h)) for h in what.holes],
-        regions=_bounded([_region(r) for r in [*_listed(regions, "regions"), *what.regions]], max_volume),
+        holes=[_numbers(h, 3, "a hole") for h in holes] + [list(map(float, h)) for h in what.holes],
+        regions=_bounded([_region(r) for r in [*regions, *what.regions]], max_volume),
         max_volume=_most_volume(max_volume),
         max_ratio=0.0 if max_ratio is None else _positive(max_ratio, "max_ratio"),
         layers=_layers(layers),
@@ -220,6 +222,19 @@ def mesh(
         meshed.pasted = pasted
         meshed.report.update(parts=json.loads(pasted._result.parts()), shared_facets=pasted.shared_triangles)
     return meshed
+
+
+def _require_sense(fill: bool, quality: str, steps: set[str], metric: Any, growth: bool,
+                   for_field_points: typing.Mapping[str, bool]) -> None:
+    """Refuses options that would have no effect, as the program does."""
+    if fill and (idle := [option for option, is_given in for_field_points.items() if is_given]):
+        raise ValueError(f"fill=True adds no field points, so that {', '.join(idle)} would do nothing; leave out one of them")
+    if not fill and "points" in steps:
+        raise ValueError("without='points' does nothing without fill=True: field points are wanted then")
+    if "optimise" in steps and (quality != "good" or "points" in steps):
+        raise ValueError("quality and without='points' do nothing with without='optimise': they are for the optimisation")
+    if metric is not None and not growth:
+        raise ValueError("growth=False does nothing with metric: its tensors say all of the sizes inside")
 
 
 def _listed(rows: Any, what: str) -> list[Any]:

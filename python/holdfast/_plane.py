@@ -225,6 +225,9 @@ def plane(
     refines = size is not None or angle is not None
     stop_after, swaps = _stage(stop_after)
     _require_sense(method, ears, order, partition_first, stop_after, refines, keep_boundary, max_points)
+    holes, regions = _listed(holes, "holes"), _listed(regions, "regions")
+    if stop_after is not None and (delaunay or holes or regions):
+        raise ValueError("stop_after: delaunay, holes and regions come after it")
     options.update(
         method=method,
         ears=ears,
@@ -243,7 +246,7 @@ def plane(
         seed=whole(seed, "seed"),
     )
     if isinstance(points, (str, bytes, os.PathLike)):
-        if segments is not None or point_markers is not None or segment_markers is not None or list(holes) or list(regions):
+        if segments is not None or point_markers is not None or segment_markers is not None or holes or regions:
             raise ValueError("a file holds its own segments, markers, holes and regions: leave them out")
         with Shown(progress, "plane") as callback:
             result = _core.plane_file(os.fsdecode(points), format or "", float(tolerance), options, callback)
@@ -254,8 +257,8 @@ def plane(
             raise ValueError("arcs: only files have arcs")
         array = _coordinates(points)
         ends = None if segments is None else indices_of(segments, 2, "segments")
-        seeds = [_seed(r) for r in _listed(regions, "regions")]
-        places = [_place(h, array.shape[1]) for h in _listed(holes, "holes")]
+        seeds = [_seed(r) for r in regions]
+        places = [_place(h, array.shape[1]) for h in holes]
         marks = (markers_of(point_markers, "point_markers"), markers_of(segment_markers, "segment_markers"))
         with Shown(progress, "plane") as callback:
             if array.shape[1] == 3:

@@ -365,7 +365,13 @@ class TetMesh:
         ...     holdfast.read_volume(os.path.join(folder, "one.msh"))
         TetMesh(4 points, 1 tetrahedron, 1 region)
         """
-        surfaces = os.path.splitext(os.fsdecode(path))[1].lower() in (".stl", ".ply", ".obj", ".off", ".gts", ".poly") and not format
+        kind = (format or os.path.splitext(os.fsdecode(path))[1]).lower().removeprefix(".")
+        surfaces = kind in ("stl", "ply", "obj", "off", "gts", "poly")
+        if order == 2 and not surfaces and not each_region and all(x is None for x in (names, only, scale)):
+            mesh = self if self.order == 2 else self.second_order()
+            if len(mesh.not_positive) == 0:  # otherwise `convert` warns of these
+                return mesh.save(path, format, binary=binary, one_file=one_file, gzip=gzip, shells=shells, compress=compress,
+                                 threads=threads, time_limit=time_limit, memory_limit=memory_limit, cancel=cancel, progress=progress)
         if surfaces or each_region or any(x is not None for x in (order, names, only, scale)):
             with tempfile.TemporaryDirectory() as folder:
                 inner = os.path.join(folder, "mesh.vtu")

@@ -264,6 +264,35 @@ def test_neighbours(cube):
     assert len(set(mesh.tetrahedra[t]) & set(mesh.tetrahedra[beside[t, k]])) == 3
 
 
+@pytest.mark.parametrize("match, options", [
+    ("gradation would do nothing", {"fill": True, "gradation": 0.2}),
+    ("growth=False would do nothing", {"fill": True, "growth": False}),
+    ("quality='best' would do nothing", {"fill": True, "quality": "best"}),
+    ("size, layers would do nothing", {"fill": True, "size": 1, "layers": 2}),
+    ("the size of a region would do nothing", {"fill": True, "regions": [(0.5, 0.4, 0.6, 7, 0.1)]}),
+    ("without fill=True", {"without": "points"}),
+    ("they are for the optimisation", {"without": "optimise", "quality": "fast"}),
+    ("nothing with metric", {"metric": lambda p: np.tile(np.eye(3), (len(p), 1, 1)), "growth": False}),
+])
+def test_options_without_effect_are_refused(cube, match, options):
+    with pytest.raises(ValueError, match=match):
+        holdfast.mesh(*cube, **options)
+
+
+def test_save_of_second_order_is_what_the_program_writes(cube, tmp_path):
+    mesh = holdfast.mesh(*cube, size=0.5)
+    assert mesh.save(tmp_path / "a.vtu", order=2) == mesh.second_order().save(tmp_path / "b.vtu")
+    assert (tmp_path / "a.vtu").read_bytes() == (tmp_path / "b.vtu").read_bytes()
+    assert b"input_vertex" in (tmp_path / "a.vtu").read_bytes()
+
+
+@pytest.mark.parametrize("format", ["stl", ".off"])
+def test_save_of_surfaces_by_format(cube, tmp_path, format):
+    mesh = holdfast.mesh(*cube, size=0.5)
+    mesh.save(tmp_path / "surface", format)
+    assert len(holdfast.read_surface(tmp_path / "surface", format=format).triangles) == 12
+
+
 def test_delaunay():
     points = np.random.default_rng(1).random((200, 3))
     tets = holdfast.delaunay(points)

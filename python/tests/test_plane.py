@@ -191,6 +191,8 @@ def test_what_is_invalid(points, segments, kind, which):
     (ValueError, "no such stage", {"stop_after": "swap=3", "method": "ears"}),
     (ValueError, "swap=K", {"stop_after": "swap"}),
     (ValueError, "come after it", {"stop_after": "delaunay", "angle": 20}),
+    (ValueError, "come after it", {"stop_after": "delaunay", "holes": [(1.5, 1.5)]}),
+    (ValueError, "come after it", {"stop_after": "delaunay", "delaunay": True}),
     (ValueError, "no point is added", {"keep_boundary": True}),
     (ValueError, "no point is added", {"max_points": 3}),
     (ValueError, "size=0.0: a positive", {"size": 0}),
