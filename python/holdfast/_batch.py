@@ -9,6 +9,7 @@ import fcntl
 import importlib
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -20,8 +21,9 @@ from pathlib import Path
 from typing import Any, Optional, Union
 
 from ._batch_records import Row, Task, checksum_of, is_complete, keep_better, options_that_matter, rows_of
-from ._limits import MemoryAmount, bytes_of
+from ._limits import MemoryAmount, bytes_of, weld_of
 from ._program import program
+from ._repair import most_sides
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -29,8 +31,17 @@ STATUSES = ("done", "skipped", "invalid", "limit", "failed")
 _BY_EXIT = {0: "done", 4: "invalid", 5: "limit"}
 
 
+# Options of `mesh` that a batch sets, or whose files would be overwritten by the next part.
+_OF_ONE_RUN = {
+    "-o": "the folder of the batch is -o before it",
+    "--format": "give it before --",
+    "--report": "results.jsonl has a line for each part",
+    **dict.fromkeys(("--html", "--exact", "--repaired"), "parts would overwrite each other's"),
+}
+
+
 class BatchError(ValueError):
-    """A batch that cannot begin: two files with one stem, or a shard that does not exist."""
+    """A batch that cannot begin: two files with one stem, a file for all parts, or a shard that does not exist."""
 
 
 @dataclass
@@ -94,6 +105,10 @@ def plan(
     names = [os.fspath(f) for f in files]
     if not names:
         raise BatchError("there are no files")
+    for argument in arguments:
+        option = "-o" if re.match("-o|--output(=|$)", argument) else argument.partition("=")[0]
+        if option in _OF_ONE_RUN:
+            raise BatchError(f"{option} after -- names one file for all parts: {_OF_ONE_RUN[option]}")
     by_stem: dict[str, str] = {}
     for name in names:
         other = by_stem.setdefault(stem_of(name), name)
@@ -306,9 +321,9 @@ def _lost(task: Task, error: Exception) -> Row:
             "ended": round(time.time(), 3), "message": f"the worker was lost: {type(error).__name__}: {error}"}
 
 
-_FLAGS = {"fill": "--fill", "drop_outside": "--drop-outside", "surface_of": "--surface-of"}
+_FLAGS = {"fill": "--fill", "drop_outside": "--drop-outside", "surface_of": "--surface-of", "union": "--union"}
 _VALUES = {"size": "--size", "gradation": "--gradation", "quality": "--quality", "seed": "--seed", "threads": "--threads",
-           "size_field": "--size-field"}
+           "size_field": "--size-field", "max_ratio": "--max-ratio", "layers": "--layers", "order": "--order"}
 
 
 def _number(value: Any) -> str:
@@ -338,7 +353,17 @@ def arguments_of(options: dict[str, Any]) -> list[str]:
     for name, option in (("holes", "--hole"), ("regions", "--region")):
         for values in left.pop(name, ()):
             found += [option, ",".join(_number(v) for v in values)]
-    for step in left.pop("without", ()):
+    bounds = left.pop("max_volume", None)
+    for region, volume in bounds.items() if isinstance(bounds, typing.Mapping) else [(None, bounds)]:
+        if volume is not None:
+            found += ["--max-volume", str(volume) if region is None else f"{region}={volume}"]
+    if (weld := weld_of(left.pop("repair", False))) is not None:
+        found.append(f"--repair={weld!r}" if weld > 0 else "--repair")
+    fill_holes = left.pop("fill_holes", False)
+    if sides := most_sides(fill_holes):
+        found += ["--fill-holes"] if fill_holes is True else ["--fill-holes", str(sides)]
+    without = left.pop("without", ())
+    for step in [without] if isinstance(without, str) else without:
         found += ["--without", step]
     if left:
         raise TypeError(f"batch: there is no option {', '.join(sorted(left))}")
@@ -383,7 +408,9 @@ def batch(
     progress
         Called with (row, number finished, number of all).
     options
-        Options of `mesh`: fill, size (a number), quality, keep, seed, threads and so on.
+        Options of `mesh`: fill, size (a number or, as `size_field`, a path), gradation, growth, max_volume, max_ratio,
+        layers, quality, keep, box_margin, holes, regions, drop_outside, repair, fill_holes, union, without, order, seed and
+        threads; and surface_of=True for files of volumes.
 
     Returns
     -------
@@ -395,6 +422,8 @@ def batch(
     ------
     ValueError
         For equal stems, and for a shard that does not exist.
+    TypeError
+        For options of `mesh` that are not among these.
 
     Example
     -------

@@ -195,6 +195,27 @@ def test_options_go_through(parts, tmp_path):
         holdfast.batch(parts[:1], tmp_path / "out", size=np.ones(3))
 
 
+def test_options_of_mesh_in_a_batch(parts, tmp_path):
+    options = {"max_volume": {None: 0.1, 1: 0.02}, "max_ratio": 2, "layers": 2, "repair": 1e-9, "fill_holes": 4, "union": True, "order": "halving",
+               "without": "flips"}
+    (row,) = holdfast.batch(parts[:1], tmp_path / "out", **options)
+    assert row["status"] == "done", row["message"]
+    mesh = holdfast.read_volume(row["output"])
+    assert mesh.quality().volume.max() <= 0.02
+    same = holdfast.mesh(parts[0], **options)
+    assert np.array_equal(mesh.points, same.points) and np.array_equal(mesh.tetrahedra, same.tetrahedra)
+    (row,) = holdfast.batch(parts[:1], tmp_path / "out", repair=True, fill_holes=True)
+    assert row["status"] == "done", row["message"]
+
+
+@pytest.mark.parametrize("given", [["--format", "msh"], ["--format=msh"], ["-o", "x.vtu"], ["-ox.vtu"], ["--output=x.vtu"], ["--report", "r.json"],
+                                   ["--html", "a.html"], ["--repair", "--repaired", "a.off"], ["--exact=e.jsonl"]])
+def test_files_of_one_run_are_refused(parts, tmp_path, given):
+    run = command(*parts[:2], "-o", tmp_path / "out", "--", *given)
+    assert run.returncode == 2 and "after -- names one file" in run.stderr
+    assert not (tmp_path / "out").exists()
+
+
 def test_node_files_go_together(parts, tmp_path):
     out = tmp_path / "out"
     assert command(parts[0], "-o", out, "--format", "node").returncode == 0
