@@ -106,6 +106,9 @@ struct PlaneReport {
   std::size_t joined = 0;  ///< of these, those made with the reflex vertex nearest to a side
   std::size_t links = 0;   ///< between parts of an outline
   std::size_t triangles = 0, regions = 0;
+  /// Holes in no region; seeds in no kept region, or in one with a later seed: numbers in the input. Of
+  /// planes in space only if there is one.
+  std::vector<Index> idle_holes, idle_seeds;
   std::size_t field_points = 0;    ///< added by refinement, on no segment
   std::size_t segment_points = 0;  ///< added by refinement, on segments
   /// Triangles below the bound at small angles of the input, or opposite them.

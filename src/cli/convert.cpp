@@ -79,6 +79,20 @@ void write(const AnyMesh& mesh, const ConvertArguments& arguments, const AnyTarg
   }
 }
 
+/// Gives a volume, which is scaled already, its order. The smooth surface and the tolerance have the unit of
+/// the input.
+void set_order(Volume& volume, const ConvertArguments& arguments, const Limits& limits) {
+  OrderArguments order = arguments.order;
+  std::optional<Surface> smooth = read_curved(order, limits);
+  if (smooth && arguments.scale) {
+    AnyMesh scaled{false, {}, std::move(*smooth), {}};
+    static_cast<void>(scale(scaled, *arguments.scale));
+    smooth = std::move(scaled.surface);
+    if (order.tolerance) *order.tolerance *= *arguments.scale;
+  }
+  set_order(volume, order, smooth, limits, arguments.quiet);
+}
+
 int run(const ConvertArguments& arguments) {
   if (arguments.scale && !(*arguments.scale > 0 && std::isfinite(*arguments.scale)))
     throw UsageError(fmt::format("--scale {}: a positive and finite number is expected", *arguments.scale));
@@ -89,23 +103,27 @@ int run(const ConvertArguments& arguments) {
   read_any(files, arguments.input, arguments.input_format);
   take_order(arguments.order, files);
   AnyTarget target = output_target(files, "the output", arguments.output);
+  refuse_second_order_in_pieces(arguments.order, arguments.output.pieces);
   target.options.threads = arguments.threads;
   watch_writing(target.options, limits);
   cancel_by_flag();
   AnyMesh mesh = read_any(arguments.input, reading(limits, arguments.input_format, arguments.tolerance));
   if (!arguments.quiet) tell(mesh.remarks, arguments.input);
   merge(mesh.names(), names);
-  if (!arguments.quiet && !arguments.names.empty())
-    tell_idle_names(arguments.names, mesh.is_volume ? nameable_in(mesh.volume) : nameable_in(mesh.surface));
+  const bool was_volume = mesh.is_volume;
   take_part(mesh, part);
+  if (!arguments.quiet && !arguments.names.empty()) {
+    Nameable there = mesh.is_volume ? nameable_in(mesh.volume) : nameable_in(mesh.surface);
+    if (was_volume) there.regions_are_known = true;
+    tell_idle_names(arguments.names, there);
+  }
   if (arguments.scale)
     if (const std::size_t turned = scale(mesh, *arguments.scale); turned > 0)
       say("holdfast: --scale: rounding turns or flattens {}; a power of two rounds nothing\n",
           counted(turned, "tetrahedron", "tetrahedra"));
   if (arguments.output.each_region) {
     if (!mesh.is_volume) throw UsageError("--each-region: the file holds no tetrahedra, but a surface");
-    if (arguments.order.order)
-      set_order(mesh.volume, arguments.order, read_curved(arguments.order, limits), limits, arguments.quiet);
+    if (arguments.order.order) set_order(mesh.volume, arguments, limits);
     write_output(files, arguments.output, target, mesh.volume, arguments.quiet);
     return exit_done;
   }
@@ -121,7 +139,7 @@ int run(const ConvertArguments& arguments) {
   if (arguments.order.order) {
     if (!mesh.is_volume || mesh.volume.tetrahedra.empty())
       throw UsageError("--order: only volumes have an order, and this is a surface");
-    set_order(mesh.volume, arguments.order, read_curved(arguments.order, limits), limits, arguments.quiet);
+    set_order(mesh.volume, arguments, limits);
   }
   write(mesh, arguments, target);
   if (arguments.quiet) return exit_done;

@@ -145,6 +145,7 @@ Targets note_files(const MeshArguments& arguments, const Options& options, Files
     throw UsageError(
         fmt::format("--order 2 does nothing for {}: the format holds only surfaces of first order",
                     arguments.output.path.string()));
+  refuse_second_order_in_pieces(arguments.elements, arguments.output.pieces);
   targets.volume.options.threads = arguments.threads;
   watch_writing(targets.volume.options, options);
   if (!arguments.repaired.empty())

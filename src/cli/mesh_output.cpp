@@ -93,6 +93,11 @@ AnyTarget output_target(FilesOfRun& files, const char* option, const OutputArgum
   return target;
 }
 
+void refuse_second_order_in_pieces(const OrderArguments& order, const PartitionArguments& pieces) {
+  if (pieces.parts && order.order == 2)
+    throw UsageError("--partition: elements of second order (--order 2) are not written in pieces");
+}
+
 void write_output(FilesOfRun& files, const OutputArguments& arguments, const AnyTarget& target,
                   const Volume& all, bool quiet) {
   Volume without;

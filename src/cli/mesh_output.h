@@ -6,6 +6,7 @@
 
 #include "any_mesh.h"
 #include "files_of_run.h"
+#include "order_options.h"
 #include "partition_option.h"
 #include "write_options.h"
 
@@ -32,6 +33,9 @@ struct OutputArguments {
 /// Names the file and determines its options. Throws UsageError.
 [[nodiscard]] AnyTarget output_target(FilesOfRun& files, const char* option,
                                       const OutputArguments& arguments);
+
+/// Throws UsageError before any work. Elements of second order of a file are found when it is read.
+void refuse_second_order_in_pieces(const OrderArguments& order, const PartitionArguments& pieces);
 
 /// Writes a volume or, if the format only holds surfaces, its boundary and interfaces, and says so unless
 /// `quiet`. Throws FileError, and UsageError if a region's file would replace one that is in use.

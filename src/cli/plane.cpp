@@ -107,6 +107,10 @@ PlaneOptions to_options(const PlaneArguments& arguments) {
       throw UsageError("--order: the method ears lays no segments one by one");
     options.order = named<LayingOrder>("--order", arguments.order);
   }
+  if (options.stop_after && !(arguments.holes.empty() && arguments.regions.empty()))
+    throw UsageError(fmt::format("--stop-after {}: --hole and --region come after it", arguments.stop_after));
+  if (options.stop_after && arguments.delaunay)
+    throw UsageError(fmt::format("--stop-after {}: --delaunay comes after it", arguments.stop_after));
   options.partition_first = arguments.partition_first;
   options.delaunay = arguments.delaunay;
   options.hull = arguments.hull;
@@ -218,6 +222,22 @@ void name_parts(const PlaneArguments& arguments, PlaneMesh& mesh) {
   tell_idle_names(arguments.names, there);
 }
 
+/// Says which points of options, that follow those of the file, do nothing.
+void tell_idle_points(const PlaneArguments& arguments, const PlanesInSpace& planes,
+                      const PlaneReport& report) {
+  const auto tell = [](const std::vector<std::string>& texts, const char* option, std::size_t all,
+                       const std::vector<Index>& idle, const char* why) {
+    for (const Index i : idle)
+      if (i + texts.size() >= all)
+        say("holdfast: {} {} does nothing: {}\n", option, texts[i + texts.size() - all], why);
+  };
+  if (planes.parts.size() != 1 || !arguments.stop_after.empty()) return;
+  const Plane& plane = planes.parts[0].plane;
+  tell(arguments.holes, "--hole", plane.holes.size(), report.idle_holes, "the point is in no region");
+  tell(arguments.regions, "--region", plane.regions.size(), report.idle_seeds,
+       "the point is in no region that is kept, or in one that a later --region numbers");
+}
+
 /// A point of --hole or --region, as the plane of the file is seen. Two coordinates do for planes that are
 /// seen along z.
 PlanePoint seen_in(const PlanesInSpace& planes, const std::string& option, const std::vector<double>& x,
@@ -256,8 +276,16 @@ PlaneResult solve(const PlanesInSpace& planes, const PlaneOptions& options) {
   }
 }
 
+bool is_drawing(const PlaneArguments& arguments) {
+  const std::filesystem::path& path = arguments.input;
+  const bool packed = path.extension() == ".gz";
+  return volume_format_of(packed ? path.parent_path() / path.stem() : path, arguments.input_format) == ".dxf";
+}
+
 int run(const PlaneArguments& arguments) {
   const PlaneOptions options = to_options(arguments);
+  if (arguments.arcs && !is_drawing(arguments))
+    throw UsageError("--arcs does nothing without a .dxf: no other file has arcs");
   std::optional<double> weld;
   if (arguments.repair) weld = weld_of(*arguments.repair);
   FilesOfRun files;
@@ -285,6 +313,7 @@ int run(const PlaneArguments& arguments) {
         add_holes_and_regions(arguments, planes);
         result = solve(planes, options);
         if (result.outcome != Outcome::done) return;
+        if (!arguments.quiet) tell_idle_points(arguments, planes, result.report);
         name_parts(arguments, result.mesh);
         write_plane(arguments.output, result.mesh, writing);
         if (!arguments.quiet) tell(not_held(arguments.output, result.mesh, writing), arguments.output);

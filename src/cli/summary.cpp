@@ -57,9 +57,9 @@ Angles angles_of(const Report& report, bool with_metric) {
 }
 
 /// The reason for flat elements.
-std::string reason_for(const Report& report, bool with_field_points, const Angles& angles) {
-  if (!with_field_points)
-    return "without field points, elements span what lies between the surface's vertices";
+std::string reason_for(const Report& report, const Options& options, const Angles& angles) {
+  if (options.stop_after) return "the run stops before elements are improved";
+  if (!options.sizes) return "without field points, elements span what lies between the surface's vertices";
   if (angles.in_metric) return "the metric and the surface's triangles differ too much";
   const Report::Field& field = report.field;
   const std::size_t others = field.below_10_deg - field.forced - field.across;
@@ -79,7 +79,7 @@ std::string quality_of(const Result& result, const Options& options) {
   std::string text = fmt::format("least dihedral angle {:.3g} degrees{}, {:.3g} % of elements below 10",
                                  angles.least, angles.in_metric ? " as the metric sees it" : "", 100 * below);
   if (angles.least < least_good || below > most_below)
-    text += ": poor, as " + reason_for(result.report, options.sizes.has_value(), angles);
+    text += ": poor, as " + reason_for(result.report, options, angles);
   return text;
 }
 

@@ -18,6 +18,13 @@ void number_regions(const Plane& plane, Chosen& chosen) {
   }
 }
 
+std::vector<Index> numbers_of(const std::vector<bool>& marks) {
+  std::vector<Index> numbers;
+  for (Index i = 0; i < marks.size(); ++i)
+    if (marks[i]) numbers.push_back(i);
+  return numbers;
+}
+
 }  // namespace
 
 std::size_t Chosen::count() const {
@@ -42,13 +49,24 @@ Chosen choose_regions(Draft& draft, const Plane& plane, PlaneMethod method) {
         use(i, chosen.regions.of_triangle[found[i].triangle]);
     }
   };
-  locate(plane.holes, [&](std::size_t, std::uint32_t region) { chosen.kept[region] = false; });
+  std::vector<bool> is_idle(plane.holes.size(), true);
+  locate(plane.holes, [&](std::size_t i, std::uint32_t region) {
+    chosen.kept[region] = false;
+    if (region != kOutside) is_idle[i] = false;
+  });
+  chosen.idle_holes = numbers_of(is_idle);
   std::vector<Position> seeds;
   for (const Plane::Seed& seed : plane.regions) seeds.push_back(seed.where);
+  std::vector<Index> last(count, no_entity);
   locate(seeds, [&](std::size_t i, std::uint32_t region) {
     chosen.ids[region] = plane.regions[i].id;
     chosen.areas[region] = plane.regions[i].area;
+    last[region] = static_cast<Index>(i);
   });
+  is_idle.assign(seeds.size(), true);
+  for (std::size_t region = 0; region < count; ++region)
+    if (chosen.kept[region] && last[region] != no_entity) is_idle[last[region]] = false;
+  chosen.idle_seeds = numbers_of(is_idle);
   number_regions(plane, chosen);
   return chosen;
 }

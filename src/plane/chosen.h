@@ -17,6 +17,7 @@ struct Chosen {
   std::vector<double> areas;
   /// Whether a hole or seed lies on a constraint. It may lie on a side of the hull that is no constraint.
   bool on_constraint = false;
+  std::vector<Index> idle_holes, idle_seeds;  ///< see PlaneReport
 
   [[nodiscard]] bool keeps(std::uint32_t triangle) const { return kept[regions.of_triangle[triangle]]; }
   [[nodiscard]] int id_of(std::uint32_t triangle) const { return ids[regions.of_triangle[triangle]]; }

@@ -50,6 +50,9 @@ class Together {
     for (const int region : mesh.regions) sum_.mesh.regions.push_back(regions + region);
     for (const Segment& s : mesh.segments) sum_.mesh.segments.push_back({number[s[0]], number[s[1]]});
     add(sum_.report, result.report);
+    if (planes_.parts.size() > 1) return;
+    sum_.report.idle_holes = result.report.idle_holes;
+    sum_.report.idle_seeds = result.report.idle_seeds;
   }
 
   /// The defects of a plane, with the vertex numbers of the file.

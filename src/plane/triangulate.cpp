@@ -102,6 +102,8 @@ bool keep_regions(Draft& draft, const Plane& plane, const PlaneOptions& options,
     return found;
   });
   result.report.regions = chosen.count();
+  result.report.idle_holes = chosen.idle_holes;
+  result.report.idle_seeds = chosen.idle_seeds;
   if (!result.defects.empty()) return false;
   if (refines(options)) {
     draft.mesh = kept_part(draft.mesh, chosen.regions, chosen.kept);

@@ -13,6 +13,8 @@ Json to_json(const PlaneResult& result, Json options, bool stopped,
              const std::optional<PlaneRepairReport>& repaired) {
   const PlaneReport& report = result.report;
   Json json = {{"input", {{"points", report.points}, {"segments", report.segments}, {"holes", report.holes}}},
+               {"idle_holes", report.idle_holes},
+               {"idle_seeds", report.idle_seeds},
                {"missing_segments", report.missing_segments},
                {"swaps", report.swaps},
                {"delaunay_swaps", report.delaunay_swaps},

@@ -81,6 +81,9 @@ class Decisions(CliTest):
         said, report = self.mesh("thin.off")
         self.assertRegex(said.splitlines()[-1], r": poor, as (small angles of the surface force|the surface's triangles are)")
 
+        said, report = self.mesh("thin.off", "--stop-after", "suppress")
+        self.assertRegex(said.splitlines()[-1], r": poor, as the run stops before elements are improved$")
+
     def test_limits_are_told_as_given(self):
         points, facets = [], []
         for k in range(3000):

@@ -130,6 +130,18 @@ class Order(CliTest):
                                 "--curved-tolerance", "1e-9").stderr
         self.assertIn("farther", said)
 
+    def test_the_smooth_surface_is_scaled_with_the_volume(self):
+        self.write("coarse.off", off(*sphere(10)))
+        self.write("fine.off", off(*sphere(80)))
+        self.run_program("mesh", "coarse.off", "-o", "flat.vtu")
+        for tolerance in ([], ["--curved-tolerance", "0.03"]):
+            options = ["--order", "2", "--curved", "fine.off", *tolerance]
+            said = self.run_program("convert", "flat.vtu", "one.mesh", *options).stderr
+            self.assertNotRegex(said, r": 0 of \d+ nodes")
+            self.run_program("convert", "flat.vtu", "half.mesh", *options, "--scale", "0.5")
+            halves = [tuple(x / 2 for x in p) for p in self.read("one.mesh")[0]]
+            self.assertEqual(self.read("half.mesh")[0], halves)
+
     def test_gmsh_reads_it(self):
         if shutil.which("gmsh") is None:
             self.skipTest("there is no gmsh")

@@ -197,6 +197,9 @@ class Partitioned(CliTest):
             before = self.files()
             self.assertTrue(self.run_program("mesh", "cube.off", "--fill", *options, expect=2).stderr)
             self.assertEqual(self.files(), before)
+        for command in (["mesh", "missing.off", "-o"], ["convert", "missing.vtu"]):  # before the file is read
+            said = self.run_program(*command, "x.pvtu", "--partition", 2, "--order", 2, expect=2).stderr
+            self.assertIn("second order", said)
 
 
 if __name__ == "__main__":

@@ -143,6 +143,23 @@ class Triangles(CliTest):
             self.run_program("plane", "in.poly", "-o", "out.off", "--stop-after", wrong, expect=2)
         self.run_program("plane", "in.poly", "-o", "out.off", "--method", "partition", "--stop-after", "swap=1", expect=2)
 
+    def test_points_and_angles_without_effect_are_told(self):
+        self.write("in.poly", poly(SQUARE + INNER, RING))
+        for idle in (["--hole", "9,9"], ["--region", "9,9,7"]):
+            said = self.run_program("plane", "in.poly", "-o", "out.off", "--report", "r.json", *idle).stderr
+            self.assertIn(f"{' '.join(idle)} does nothing: the point is in no region", said)
+            report = json.loads((self.folder / "r.json").read_text())
+            self.assertEqual((report["idle_holes"], report["idle_seeds"]), ([0], []) if "--hole" in idle else ([], [0]))
+        said = self.run_program("plane", "in.poly", "-o", "out.off", "--hole", "2,2", "--region", "2,2.1,7", "--region", "0.5,0.5,8",
+                                "--region", "0.4,0.5,9").stderr
+        self.assertIn("--region 2,2.1,7 does nothing", said)
+        self.assertIn("--region 0.5,0.5,8 does nothing", said)
+        self.assertEqual(said.count("does nothing"), 2)
+        self.run_program("plane", "in.poly", "-o", "out.off", "--method", "ears", "--hole", "2,2", "--region", "0.5,0.5,8")
+        for wrong in (["--arcs", "10"], ["--stop-after", "delaunay", "--hole", "2,2"], ["--stop-after", "swap=1", "--region", "2,2,5"],
+                      ["--stop-after", "delaunay", "--delaunay"]):
+            self.run_program("plane", "in.poly", "-o", "out.off", *wrong, expect=2)
+
     def test_order(self):
         # Seven parallel segments through a pencil: from the top, points lead to more points; from the middle, to fewer.
         low, high, most = [(float(i), 0.0) for i in range(-8, 9)], [(0.0, 2.0)], 7
