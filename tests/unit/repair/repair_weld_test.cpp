@@ -38,6 +38,29 @@ TEST(RepairWithWeld, PartsOfWeldedFacetsNameTheFacetsOfTheInput) {
   }
 }
 
+// Faces that overlap in a plane: triangles led through the vertices in them had many diagonals, which
+// crossed.
+TEST(RepairWithWeld, LeavesVerticesThatLieExactlyOnFacesToTheCut) {
+  Surface surface;
+  small::add_box(surface, {0, 0, 0}, {3, 3, 1});
+  small::add_box(surface, {1, 1, 1}, {4, 2, 2});
+  small::add_box(surface, {0.5, 1, 0}, {2, 2.5, 1});
+  RepairOptions options;
+  const RepairResult plain = repair(surface, options);
+  options.weld = 1e-3;
+  const RepairResult welded = repair(surface, options);
+  expect_valid(welded);
+  EXPECT_EQ(welded.surface.vertices, plain.surface.vertices);
+  EXPECT_EQ(welded.surface.facets, plain.surface.facets);
+  EXPECT_EQ(welded.max_displacement, plain.max_displacement);
+
+  surface.vertices[8][2] += 1e-4;  // no longer on the face below
+  const RepairResult bent = repair(surface, options);
+  expect_valid(bent);
+  EXPECT_GT(bent.max_displacement, 0.9e-4);
+  EXPECT_LE(bent.max_displacement, options.weld);
+}
+
 // Rounding leaves out vertices that nothing uses, but for those of the input, and then numbers the others
 // anew. With the numbers of before, it read far beyond the vertices that are left.
 TEST(RepairWithWeld, VerticesThatWeldingAddsAreComparedByTheirPlace) {
