@@ -222,6 +222,7 @@ class Bending {
   [[nodiscard]] std::pair<Index, Nearness> vertex_beside(const Side& side, const BentSurface::AtSide& here) {
     Index best = no_index;
     Nearness nearest;
+    bool bends = how_.touching == Touching::bends;
     const Box box = box_round(state_, side, gap_);
     ++looked_;
     const auto look = [&](const std::vector<Index>& lists) {
@@ -231,8 +232,9 @@ class Bending {
         for (const Index v : near_[list]) {
           if (v == side[0] || v == side[1] || v == best || !holds(box, at(v))) continue;
           const Nearness near = beside_side(at(v), at(side[0]), at(side[1]));
-          if (!(near.distance <= gap_) || !(near.distance < nearest.distance)) continue;
-          if (!has_room(here, v, near.bound()) || is_left_on(side, v)) continue;
+          if (!(near.distance <= gap_)) continue;
+          bends = bends || !touches(side, v);
+          if (!(near.distance < nearest.distance) || !has_room(here, v, near.bound())) continue;
           nearest = near;
           best = v;
         }
@@ -242,7 +244,7 @@ class Bending {
       if (surface_.facet(f).lives) look(surface_.facet(f).lists);
     for (const Index s : here.segments)
       if (surface_.segment(s).lives) look(surface_.segment(s).lists);
-    return {best, nearest};
+    return {bends ? best : no_index, nearest};
   }
 
   /// Whether the facets and segments of a side may be bent to a vertex, which bends the facets by so much
@@ -267,7 +269,21 @@ class Bending {
 
   void bend_facet(Index f) {
     if (!surface_.facet(f).lives) return;
+    const auto [through, nearness] = vertex_beside(f);
+    if (through == no_index) return;
+    const BentFacet facet = surface_.take(f, nearness.bound());
+    for (std::size_t i = 0; i < 3; ++i) {
+      BentFacet part = facet;
+      part.corners[i] = through;
+      surface_.add(std::move(part));
+    }
+  }
+
+  /// The first of the vertices that a facet passes and may be led through.
+  [[nodiscard]] std::pair<Index, Nearness> vertex_beside(Index f) {
     const auto [a, b, c] = surface_.facet(f).corners;
+    Index first = no_index;
+    Nearness nearness;
     for (const Index list : surface_.facet(f).lists) {
       work_.done += near_[list].size();
       for (const Index v : near_[list]) {
@@ -275,25 +291,23 @@ class Bending {
         const Nearness near = beside_facet(at(v), at(a), at(b), at(c));
         // All points of a sliver are near its sides, and these are led through nearby vertices.
         if (!(near.distance <= gap_) || near.tilt > gap_) continue;
-        if (!(surface_.facet(f).bent + near.bound() <= room_) || is_left_on({a, b, c}, v)) continue;
-        const BentFacet facet = surface_.take(f, near.bound());
-        for (std::size_t i = 0; i < 3; ++i) {
-          BentFacet part = facet;
-          part.corners[i] = v;
-          surface_.add(std::move(part));
+        if (!(surface_.facet(f).bent + near.bound() <= room_)) continue;
+        if (first == no_index) {
+          first = v;
+          nearness = near;
         }
-        return;
+        if (how_.touching == Touching::bends || !touches({a, b, c}, v)) return {first, nearness};
       }
     }
+    return {no_index, nearness};
   }
 
   // Exact: see Touching.
-  [[nodiscard]] bool is_left_on(const Side& side, Index v) const {
-    return how_.touching == Touching::is_left && are_aligned(at(side[0]), at(side[1]), at(v));
+  [[nodiscard]] bool touches(const Side& side, Index v) const {
+    return are_aligned(at(side[0]), at(side[1]), at(v));
   }
-  [[nodiscard]] bool is_left_on(const Triangle& facet, Index v) const {
-    return how_.touching == Touching::is_left &&
-           exact::orient3d(at(facet[0]).data(), at(facet[1]).data(), at(facet[2]).data(), at(v).data()) == 0;
+  [[nodiscard]] bool touches(const Triangle& facet, Index v) const {
+    return exact::orient3d(at(facet[0]).data(), at(facet[1]).data(), at(facet[2]).data(), at(v).data()) == 0;
   }
 
   const State& state_;

@@ -44,8 +44,8 @@ enum class Passings {
   all
 };
 
-/// What a vertex does to a side or facet on which it lies exactly. A cut makes it a common vertex, too, but
-/// in all facets of a plane at once, so that they have common triangles there.
+/// What vertices do to a side or facet if all that are near lie exactly on it. A cut makes them common
+/// vertices, too, but in all facets of a plane at once, so that they have common triangles there.
 enum class Touching { bends, is_left };
 
 struct Settle {
