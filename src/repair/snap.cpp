@@ -1,6 +1,7 @@
 #include "repair/snap.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +14,12 @@
 
 namespace holdfast::repairing {
 namespace {
+
+/// Extended by any box, it is that box.
+constexpr Box nowhere() {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+}
 
 class Snapping {
  public:
@@ -29,13 +36,14 @@ class Snapping {
   }
 
   double run() {
-    for (Index p = 1; p < facets_.size(); ++p) {
+    for (Index p = 0; p < facets_.size(); ++p) {
       std::map<Index, Point> moves = moves_of(p);
       withdraw_invalid(p, moves);
       for (const auto& [v, to] : moves) {
         most_ = std::max(most_, length(at(v) - to) * (1 + 0x1p-48));
         state_.vertices[v] = to;
       }
+      boxes_.push_back(box_of(p));
     }
     return most_;
   }
@@ -51,6 +59,12 @@ class Snapping {
     return vertices;
   }
 
+  [[nodiscard]] Box box_of(Index part) const {
+    Box box = nowhere();
+    for (const Index f : facets_[part]) box.extend(box_round(state_, state_.facets[f], 0));
+    return box;
+  }
+
   /// Where a vertex may go. Lower kinds come first, then smaller distances.
   struct Target {
     int kind;
@@ -63,11 +77,23 @@ class Snapping {
 
   [[nodiscard]] std::map<Index, Point> moves_of(Index part) const {
     const std::vector<Index> own = vertices_of(part);
-    std::vector<Index> before;
-    for (Index p = 0; p < part; ++p) before.insert(before.end(), facets_[p].begin(), facets_[p].end());
     std::vector<Box> round_own, round_before;
-    for (const Index v : own) round_own.push_back(box_round(state_, std::array{v}, tolerance_));
-    for (const Index f : before) round_before.push_back(box_round(state_, state_.facets[f], 0));
+    Box reach = nowhere();
+    for (const Index v : own) {
+      round_own.push_back(box_round(state_, std::array{v}, tolerance_));
+      reach.extend(round_own.back());
+    }
+    std::vector<Index> before;
+    for (Index p = 0; p < part; ++p) {
+      if (!boxes_[p].overlaps(reach)) continue;
+      for (const Index f : facets_[p]) {
+        const Box box = box_round(state_, state_.facets[f], 0);
+        if (!box.overlaps(reach)) continue;
+        before.push_back(f);
+        round_before.push_back(box);
+      }
+    }
+    if (before.empty()) return {};
     std::map<Index, Target> best;
     const auto compare = [&](Index i, Index j) {
       const std::optional<Target> target = target_on(at(own[i]), state_.facets[before[j]]);
@@ -162,6 +188,7 @@ class Snapping {
   const Step& step_;
   const Threads& threads_;
   std::vector<std::vector<Index>> facets_;  // by part
+  std::vector<Box> boxes_;                  // of the parts that have been moved
   double most_ = 0;
 };
 
