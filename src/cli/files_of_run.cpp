@@ -148,8 +148,7 @@ std::string format_of(const VolumeTarget& target) {
   return volume_format_of(target.path, target.options.format);
 }
 
-void FilesOfRun::read_surfaces(const std::vector<fs::path>& paths, std::string_view format,
-                               bool of_volumes) {
+void FilesOfRun::read_surfaces(const std::vector<fs::path>& paths, std::string_view format, bool of_volumes) {
   for (const fs::path& path : paths) {
     if (of_volumes) {
       read_volume(path, format);
@@ -184,7 +183,7 @@ void FilesOfRun::read_size_field(std::string_view option, const fs::path& path) 
 
 void FilesOfRun::read(std::string_view option, const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) {
-    File file{std::string(option), path, false, true, {}, {}};
+    File file{std::string(option), path, false, true, {}, {}, {}};
     // A file that does not exist cannot be overwritten; the reader reports it.
     if (status_of(path, file.status)) add(std::move(file));
   }
@@ -192,7 +191,7 @@ void FilesOfRun::read(std::string_view option, const std::vector<fs::path>& path
 
 void FilesOfRun::write(std::string_view option, const fs::path& path, bool with_folders) {
   if (path.empty()) return;
-  File file{std::string(option), path, true, true, {}, {}};
+  File file{std::string(option), path, true, true, {}, {}, {}};
   const fs::path target = linked(path);
   if (!status_of(path, file.status)) {
     file.exists = false;
@@ -203,6 +202,7 @@ void FilesOfRun::write(std::string_view option, const fs::path& path, bool with_
       file.name = folder.filename() / file.name;
       folder = folder_of(folder);
     }
+    file.lower_name = lower(file.name.string());
   }
   if (with_folders)
     require_writable_with_folders(path);
@@ -284,10 +284,8 @@ void FilesOfRun::add(File file) {
 
 void FilesOfRun::require_different(const File& written, const File& other) {
   if (written.exists != other.exists || !same_inode(written.status, other.status)) return;
-  if (!written.exists && written.name != other.name &&
-      (lower(written.name.string()) != lower(other.name.string()) ||
-       !ignores_case(folder_of(linked(written.path)))))
-    return;
+  if (!written.exists && written.lower_name != other.lower_name) return;
+  if (!written.exists && written.name != other.name && !ignores_case(folder_of(linked(written.path)))) return;
   if (written.exists) {
     // Writing to a terminal or to /dev/null replaces nothing, nor does writing to a pipe whose other end is
     // read. But two outputs through one pipe would mix.

@@ -65,6 +65,7 @@ class FilesOfRun {
     bool written, exists;
     struct stat status;          ///< of the file or, if it does not exist, of its folder
     std::filesystem::path name;  ///< in that folder, if the file does not exist
+    std::string lower_name;      ///< in lower case; there may be thousands of files to compare
   };
   void read(std::string_view option, const std::vector<std::filesystem::path>& paths);
   void add(File file);
