@@ -66,6 +66,30 @@ std::map<int, fs::path> files_of_regions(const fs::path& path, const Volume& vol
   return files;
 }
 
+using FileOfRegion = std::pair<int, fs::path>;
+
+/// Takes the volume apart by halves of the regions, since to search all of it for each region would take as
+/// many times as long as there are regions.
+void write_regions(const Volume& volume, std::span<const FileOfRegion> files, const AnyTarget& target,
+                   bool quiet) {
+  const auto part_of_regions = [&](std::span<const FileOfRegion> of) {
+    Part regions{Part::Kind::regions, {}};
+    for (const auto& [id, path] : of) regions.regions.push_back(std::to_string(id));
+    AnyMesh part{true, volume, {}, {}};
+    take_part(part, regions);
+    return std::move(part.volume);
+  };
+  if (files.size() == 1) {
+    const auto& [id, path] = files[0];
+    write_one(path, target, part_of_regions(files), quiet);
+    if (!quiet) say("{}: region {}\n", path.string(), id);
+    return;
+  }
+  const std::size_t middle = files.size() / 2;
+  for (const std::span half : {files.first(middle), files.subspan(middle)})
+    if (!half.empty()) write_regions(part_of_regions(half), half, target, quiet);
+}
+
 }  // namespace
 
 void tell_of_surface_alone(const fs::path& path, const Volume& volume) {
@@ -101,34 +125,6 @@ void refuse_second_order_in_pieces(const OrderArguments& order, const PartitionA
   if (pieces.parts && order.order == 2)
     throw UsageError("--partition: elements of second order (--order 2) are not written in pieces");
 }
-
-namespace {
-
-using FileOfRegion = std::pair<int, fs::path>;
-
-/// Takes the volume apart by halves of the regions, since to search all of it for each region would take as
-/// many times as long as there are regions.
-void write_regions(const Volume& volume, std::span<const FileOfRegion> files, const AnyTarget& target,
-                   bool quiet) {
-  const auto part_of_regions = [&](std::span<const FileOfRegion> of) {
-    Part regions{Part::Kind::regions, {}};
-    for (const auto& [id, path] : of) regions.regions.push_back(std::to_string(id));
-    AnyMesh part{true, volume, {}, {}};
-    take_part(part, regions);
-    return part.volume;
-  };
-  if (files.size() == 1) {
-    const auto& [id, path] = files[0];
-    write_one(path, target, part_of_regions(files), quiet);
-    if (!quiet) say("{}: region {}\n", path.string(), id);
-    return;
-  }
-  const std::size_t middle = files.size() / 2;
-  for (const std::span half : {files.first(middle), files.subspan(middle)})
-    if (!half.empty()) write_regions(part_of_regions(half), half, target, quiet);
-}
-
-}  // namespace
 
 void write_output(FilesOfRun& files, const OutputArguments& arguments, const AnyTarget& target,
                   const Volume& all, bool quiet) {

@@ -30,11 +30,9 @@ Triangle with(Index fresh, Index old, Triangle corners) {
 
 /// Whether three points lie on a line.
 bool are_aligned(const Point& p, const Point& q, const Point& r) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto flat = [&](const Point& x) { return std::array{x[(k + 1) % 3], x[(k + 2) % 3]}; };
-    if (exact::orient2d(flat(p).data(), flat(q).data(), flat(r).data()) != 0) return false;
-  }
-  return true;
+  const exact::PointRef a{p.data()}, b{q.data()}, c{r.data()};
+  return exact::orient2d(a, b, c, 0) == 0 && exact::orient2d(a, b, c, 1) == 0 &&
+         exact::orient2d(a, b, c, 2) == 0;
 }
 
 bool holds(const Box& box, const Point& p) {
